@@ -146,21 +146,31 @@ export class Display {
   }
 
   /**
+   * Gives the canvas its size. It is a texture, whose sides are limited; the page stretches it. Another size wipes it.
+   *
+   * @param size Pixels of the canvas.
+   * @returns Those that it has.
+   */
+  resize(size: readonly [number, number]): [number, number] {
+    const scale = Math.min(1, this.#device.limits.maxTextureDimension2D / Math.max(...size));
+    const [width, height] = size.map((pixels) => Math.max(1, Math.floor(pixels * scale))) as [number, number];
+    if (this.#canvas.width !== width) this.#canvas.width = width;
+    if (this.#canvas.height !== height) this.#canvas.height = height;
+    return [width, height];
+  }
+
+  /**
    * Shows an image.
    *
    * @param canvasSize Pixels of the canvas.
    * @param share Of the kept preview in it, 0..1.
    */
   draw(film: GpuImage, canvasSize: readonly [number, number], share: number): void {
-    // A canvas is a texture, whose sides are limited; the page stretches it.
-    const scale = Math.min(1, this.#device.limits.maxTextureDimension2D / Math.max(...canvasSize));
-    const [width, height] = canvasSize.map((pixels) => Math.max(1, Math.floor(pixels * scale))) as [number, number];
     // Only now, since a change of size wipes the canvas.
-    if (this.#canvas.width !== width) this.#canvas.width = width;
-    if (this.#canvas.height !== height) this.#canvas.height = height;
+    const size = this.resize(canvasSize);
     const encoder = this.#device.createCommandEncoder({ label: 'glanz viewer' });
     const source = this.#small && share > 0 ? this.#mix(encoder, film, this.#small, share) : film.buffer;
-    this.#pass.draw(encoder, source, film.size, this.#context.getCurrentTexture().createView(), [width, height]);
+    this.#pass.draw(encoder, source, film.size, this.#context.getCurrentTexture().createView(), size);
     this.#device.queue.submit([encoder.finish()]);
   }
 

@@ -304,8 +304,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
 
   #resized(): void {
     const { canvas } = this;
-    const size = imageSize(canvas.clientWidth, canvas.clientHeight, this.#pixelRatio, this.options.maxPixels);
-    this.engine.resize(size, size);
+    this.engine.resize(imageSize(canvas.clientWidth, canvas.clientHeight, this.#pixelRatio, this.options.maxPixels));
   }
 
   async #relight(): Promise<void> {

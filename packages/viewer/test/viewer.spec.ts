@@ -294,6 +294,23 @@ test('resizing keeps the image sharp and the view whole', async ({ page }) => {
   await expect.poll(() => page.evaluate(() => window.viewer.tracer!.width)).toBe(100);
 });
 
+test('the canvas has the size of the image when load() resolves, although nothing is drawn out of sight', async ({
+  page,
+}) => {
+  await page.goto(served.origin);
+  await page.evaluate(() => {
+    const canvas = document.querySelector('canvas')!;
+    Object.assign(canvas.style, { width: '300px', height: '200px', marginTop: '3000px' });
+    window.viewer = window.make({ pixelRatio: 0.5 });
+  });
+  await expect.poll(() => page.evaluate(() => window.viewer.device !== undefined)).toBe(true);
+  const size = await page.evaluate(async (base64) => {
+    await window.viewer.load(window.file(base64, 'model.glb'));
+    return [window.viewer.canvas.width, window.viewer.canvas.height, window.viewer.tracer!.samples];
+  }, model.toString('base64'));
+  expect(size).toEqual([150, 100, 0]);
+});
+
 test('out of sight nothing is computed; back in sight it goes on', async ({ page }) => {
   await open(page, { samples: 4096 });
   await page.evaluate(() => void (document.querySelector('canvas')!.style.marginTop = '3000px'));
