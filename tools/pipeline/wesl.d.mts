@@ -1,4 +1,5 @@
 import type { Plugin } from 'esbuild';
+import type { WeslToken } from './wesl-names.mjs';
 
 /** A `.wesl` file that cannot be turned into a module: what is wrong, with file and line. */
 export class WeslError extends Error {}
@@ -19,6 +20,8 @@ export interface ParsedWesl {
   /** Replacements that turn the text into one with gates. */
   readonly edits: { readonly from: number; readonly to: number; readonly text: string }[];
   readonly comments: { readonly from: number; readonly to: number }[];
+  /** All of it but comments. */
+  readonly tokens: WeslToken[];
 }
 
 /**
@@ -35,7 +38,7 @@ export function closeUp(line: string): string;
 
 /** Options for {@link compileWesl}. */
 export interface WeslOptions {
-  /** Leaves out comments, and spaces that separate nothing. Default false. */
+  /** Leaves out comments, and spaces that separate nothing, and shortens names inside of functions. Default false. */
   readonly shrink?: boolean;
 }
 

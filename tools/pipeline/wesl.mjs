@@ -5,6 +5,7 @@
 // module's text is line n of its file. No parser of WESL is in what we publish.
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join, relative, resolve, sep } from 'node:path';
+import { shortenLocals } from './wesl-names.mjs';
 
 /** A `.wesl` file that cannot be turned into a module: what is wrong, with file and line. */
 export class WeslError extends Error {
@@ -46,8 +47,8 @@ const CLOSING = { '(': ')', '[': ']', '{': '}', '<': '>' };
  * @param {string} text
  * @param {string} file For messages.
  * @returns {{ imports: { path: string[], name: string, flag: string | undefined, line: number }[], edits: { from:
- *   number, to: number, text: string }[], comments: { from: number, to: number }[] }} `edits` turn the text into one
- *   with gates. `path` is the module of an imported name.
+ *   number, to: number, text: string }[], comments: { from: number, to: number }[], tokens: { text: string, from: number,
+ *   to: number }[] }} `edits` turn the text into one with gates. `path` is the module of an imported name.
  * @throws {WeslError}
  */
 export function parseWesl(text, file = 'module.wesl') {
@@ -292,7 +293,7 @@ export function parseWesl(text, file = 'module.wesl') {
   sequence(declaration, undefined);
   for (const { from, to } of comments)
     if (text.slice(from, to).includes('//#')) fail(from, 'a comment must not hold "//#", which marks gates');
-  return { imports, edits, comments };
+  return { imports, edits, comments, tokens };
 }
 
 const OPERATOR = /[-+*/%=<>!&|^~]/;
@@ -331,12 +332,13 @@ function apply(text, edits) {
 
 /**
  * The text with gates for the composer, line by line that of the file. @param {boolean} shrink Without comments and
- * spaces that separate nothing.
+ * spaces that separate nothing, and with short names in functions.
  */
-function gatedText(text, { edits, comments }, shrink) {
+function gatedText(text, { edits, comments, tokens }, shrink) {
   if (!shrink) return apply(text, edits);
   const bare = apply(text, [
     ...edits,
+    ...shortenLocals(tokens),
     ...comments.map(({ from, to }) => ({ from, to, text: text.slice(from, to).replace(/[^\n]+/g, '') || ' ' })),
   ]);
   return bare.split('\n').map(closeUpGated).join('\n');
