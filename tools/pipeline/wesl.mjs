@@ -354,6 +354,12 @@ function packageOf(file) {
   throw new WeslError(`${file}: it lies in no package.`);
 }
 
+/**
+ * Whether an imported name is a number: those of TypeScript are in capitals. It stands in the text as a literal u32, so
+ * that hosts and shaders share one table.
+ */
+const isNumber = (name) => /^[A-Z][A-Z\d]*(?:_[A-Z\d]+)*$/.test(name);
+
 /** Files that only declare what the host of a library supplies, so that editors know it. */
 export const isHost = (path) => path.at(-1) === 'host';
 
@@ -392,6 +398,7 @@ export function compileWesl(text, file, { shrink = false } = {}) {
   const source = join(folder, 'src');
   const names = new Map();
   const dependencies = new Map();
+  const numbers = new Map();
   const used = new Set(['wgslModule']);
   let imports = '';
   for (const entry of parsed.imports) {
@@ -400,6 +407,12 @@ export function compileWesl(text, file, { shrink = false } = {}) {
     const specifier = `./${relative(dirname(file), target).split(sep).join('/')}`
       .replace(/^\.\/\.\.\//, '../')
       .replace(/\.ts$/, '');
+    if (!wesl && isNumber(entry.name)) {
+      if (numbers.has(entry.name)) continue;
+      numbers.set(entry.name, `number${numbers.size}`);
+      imports += `import { ${entry.name} as ${numbers.get(entry.name)} } from ${JSON.stringify(specifier)};`;
+      continue;
+    }
     const key = wesl ? specifier : `${specifier} ${entry.name}`;
     let name = names.get(key);
     if (name === undefined) {
@@ -416,7 +429,9 @@ export function compileWesl(text, file, { shrink = false } = {}) {
     .at(-1)
     .replace(/\.wesl$/, '')
     .replaceAll('_', '-')}`;
-  const template = gatedText(text, parsed, shrink).replace(/[\\`]|\$(?=\{)/g, '\\$&');
+  const template = gatedText(text, parsed, shrink)
+    .replace(/[\\`]|\$(?=\{)/g, '\\$&')
+    .replace(/[A-Za-z_]\w*/g, (name) => (numbers.has(name) ? `\${${numbers.get(name)}}u` : name));
   // All on the first line, so that each line of the result is that of the file.
   const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`${dependencies.size > 0 ? `, [${[...dependencies.values()].join(', ')}]` : ''});\n`;
   const mappings = `AAAA${';AACA'.repeat(text.split('\n').length - 1)}`;

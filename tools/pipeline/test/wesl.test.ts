@@ -144,6 +144,15 @@ describe('imports', () => {
     expect(text).toBe('\n\n\n\nfn f() {}');
   });
 
+  it('of numbers in capitals from TypeScript become literals', () => {
+    const text =
+      'import package::light_record::{LIGHT_SPOT, Light};\nimport package::light_record::LIGHT_SPOT;\nconst a = LIGHT_SPOT + MY_LIGHT_SPOT;';
+    const { head, tail, text: template } = compiled(text, true);
+    expect(head).toContain('import { LIGHT_SPOT as number0 } from "../light-record";import { Light as module0 }');
+    expect(template).toBe('\n\nconst a=${number0}u+MY_LIGHT_SPOT;');
+    expect(tail).toBe(', [module0]);\n');
+  });
+
   it('are listed with their lines', () => {
     expect(parseWesl('\nimport package::a::b;').imports).toEqual([
       { path: ['package', 'a'], name: 'b', flag: undefined, line: 2 },
