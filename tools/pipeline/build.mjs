@@ -32,6 +32,9 @@ function fingerprint(p, dependencies) {
     join(root, 'tsup.base.ts'),
     join(root, 'tools/pipeline/published-source.mjs'),
     join(root, 'tools/pipeline/wesl.mjs'),
+    join(root, 'tools/pipeline/wesl-constants.mjs'),
+    join(root, 'tools/pipeline/wesl-names.mjs'),
+    join(root, 'tools/pipeline/wesl-tokens.mjs'),
     join(root, 'tsconfig.base.json'),
     join(root, 'pnpm-lock.yaml'),
   ];

@@ -3,41 +3,15 @@
 // `import package::a::b::name;` becomes a dependency, `@if(FLAG) … @elif(FLAG) … @else …` on declarations, members,
 // parameters, statements and imports becomes gates. Nothing else changes, and every line keeps its number: line n of a
 // module's text is line n of its file. No parser of WESL is in what we publish.
+//
+// A file of constants is TypeScript's too: see wesl-constants.mjs.
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join, relative, resolve, sep } from 'node:path';
+import { exportedConstants, readConstants } from './wesl-constants.mjs';
 import { shortenLocals } from './wesl-names.mjs';
+import { WeslError, tokenize } from './wesl-tokens.mjs';
 
-/** A `.wesl` file that cannot be turned into a module: what is wrong, with file and line. */
-export class WeslError extends Error {
-  name = 'WeslError';
-}
-
-const TOKEN = /\/\/[^\n]*|\/\*|[A-Za-z_]\w*|(?:\d|\.\d)(?:[eEpP][-+]|[\w.])*|::|&&|\|\||\S/g;
-
-/** Tokens with their places. Comments are listed apart. */
-function tokenize(text, fail) {
-  const tokens = [];
-  const comments = [];
-  TOKEN.lastIndex = 0;
-  for (let match; (match = TOKEN.exec(text));) {
-    const from = match.index;
-    if (match[0] === '/*') {
-      // They nest.
-      let depth = 0;
-      const edge = /\/\*|\*\//g;
-      edge.lastIndex = from;
-      for (let found; (found = edge.exec(text));) {
-        depth += found[0] === '/*' ? 1 : -1;
-        if (depth === 0) break;
-      }
-      if (depth !== 0) fail(from, 'a block comment never ends');
-      comments.push({ from, to: edge.lastIndex });
-      TOKEN.lastIndex = edge.lastIndex;
-    } else if (match[0].startsWith('//')) comments.push({ from, to: TOKEN.lastIndex });
-    else tokens.push({ text: match[0], from, to: TOKEN.lastIndex });
-  }
-  return { tokens, comments };
-}
+export { WeslError };
 
 const CLOSING = { '(': ')', '[': ']', '{': '}', '<': '>' };
 
@@ -383,7 +357,7 @@ function resolveModule({ path, name, line }, file, source) {
 
 /**
  * A WESL file as a JavaScript module whose default export is its `WgslModule`. Its name is `<package>/<file>`, with
- * hyphens for underscores.
+ * hyphens for underscores. The constants of a file that holds nothing else are exported by their names.
  *
  * @param {string} text
  * @param {string} file Absolute path.
@@ -434,9 +408,10 @@ export function compileWesl(text, file, { shrink = false } = {}) {
     .replace(/[A-Za-z_]\w*/g, (name) => (numbers.has(name) ? `\${${numbers.get(name)}}u` : name));
   // All on the first line, so that each line of the result is that of the file.
   const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`${dependencies.size > 0 ? `, [${[...dependencies.values()].join(', ')}]` : ''});\n`;
+  const constants = readConstants(text, file);
   const mappings = `AAAA${';AACA'.repeat(text.split('\n').length - 1)}`;
   return {
-    code,
+    code: constants ? code + exportedConstants(constants) : code,
     map: { version: 3, sources: [file.split(/[\\/]/).at(-1)], sourcesContent: [text], names: [], mappings },
   };
 }
