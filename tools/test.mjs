@@ -141,6 +141,7 @@ const STAGES = [
     run: () => program(bin('prettier', 'bin/prettier.cjs'), formatArguments(true)),
   },
   { name: 'words', title: "the field's words", run: check('./check-words.mjs', 'checkWords') },
+  { name: 'wesl', title: 'shader sources: lengths and conditions', run: check('./check-wesl.mjs', 'checkWesl') },
   {
     name: 'types',
     title: 'TypeScript 7, the whole repository',

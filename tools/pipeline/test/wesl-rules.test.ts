@@ -1,0 +1,61 @@
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { expect, it } from 'vitest';
+// @ts-expect-error It has no types: only this test and `npm test` call it.
+import { checkWesl } from '../../check-wesl.mjs';
+import { brokenRules, gateLines } from '../wesl-rules.mjs';
+
+const broken = (text: string) => brokenRules(text, 'a.wesl');
+const lines = (count: number, line: string) => `${line}\n`.repeat(count);
+
+it('a function has at most 120 lines', () => {
+  expect(broken(`fn f() {\n${lines(118, '  g();')}}`)).toEqual([]);
+  expect(broken(`\nfn f() {\n${lines(119, '  g();')}}\nfn g() {}`)).toEqual(['a.wesl:2: f has 121 lines, at most 120']);
+});
+
+it('a function has at most five conditions in its body; neighbours of one condition are one', () => {
+  const five = '@if(A) a(); @if(A) b(); c(); @if(A) { if (x) { @if(B) d(); } } @if(C) e(); @elif(D) f(); @else g();';
+  expect(broken(`@if(Z) fn f(@if(Y) a: u32) {\n${five} }\nfn g() {\n${five} }`)).toEqual([]);
+  expect(broken(`fn f() {\n${five} @if(E) h(); }`)).toEqual(['a.wesl:1: f has 6 conditions in its body, at most 5']);
+});
+
+it('a line has at most 120 columns, of characters', () => {
+  expect(broken(`// ${'√'.repeat(117)}`)).toEqual([]);
+  expect(broken(`\n// ${'x'.repeat(118)}`)).toEqual(['a.wesl:2: 121 columns, at most 120']);
+});
+
+it('the lines of gates in a template are counted', () => {
+  expect(gateLines('const a = `\n//#if A\n  x //#else y\n//#endif\n// if\n`;')).toBe(3);
+});
+
+it('the list of templates with gates only shrinks', async () => {
+  const base = mkdtempSync(join(tmpdir(), 'glanz-wesl-'));
+  try {
+    const put = (file: string, text: string) => {
+      mkdirSync(dirname(join(base, file)), { recursive: true });
+      writeFileSync(join(base, file), text);
+    };
+    const list = 'tools/pipeline/wesl-templates.json';
+    execFileSync('git', ['init', '-q', base]);
+    put('packages/a/src/a.wesl', 'fn a() {}');
+    put('packages/a/src/old.wgsl.ts', '`\n//#if A\n//#endif`');
+    put('packages/wgsl/src/compose.ts', '// //#if is read');
+    put(list, '{ "packages/a/src/old.wgsl.ts": 3, "packages/a/src/gone.wgsl.ts": 4 }');
+    expect((await checkWesl(base, { write: true })).lines).toEqual([]);
+    expect(JSON.parse(readFileSync(join(base, list), 'utf8'))).toEqual({ 'packages/a/src/old.wgsl.ts': 2 });
+
+    put('packages/a/src/old.wgsl.ts', '`\n//#if A\n//#else\n//#endif`');
+    put('packages/a/src/new.ts', '`//#if A\n`');
+    put('packages/a/src/wrong.wesl', 'fn a( {}');
+    const { lines: found } = await checkWesl(base, { write: true });
+    expect(found).toHaveLength(3);
+    expect(found.join('\n')).toMatch(/wrong\.wesl:1: /);
+    expect(found.join('\n')).toMatch(/new\.ts: 1 lines of gates in a template, 0 are listed/);
+    expect(found.join('\n')).toMatch(/old\.wgsl\.ts: 3 lines of gates in a template, 2 are listed/);
+    expect(JSON.parse(readFileSync(join(base, list), 'utf8'))).toEqual({ 'packages/a/src/old.wgsl.ts': 2 });
+  } finally {
+    rmSync(base, { recursive: true, force: true });
+  }
+});

@@ -1,0 +1,11 @@
+/** A function's lines, the conditions in its body, and the columns of a line, at most. */
+export const LIMITS: { readonly lines: number; readonly gates: number; readonly columns: number };
+
+/**
+ * What of a WESL file breaks a limit: messages with file and line.
+ * @throws {import('./wesl.mjs').WeslError}
+ */
+export function brokenRules(text: string, file: string): string[];
+
+/** How many lines of a TypeScript source begin, turn or end a gate. */
+export function gateLines(text: string): number;
