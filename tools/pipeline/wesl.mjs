@@ -361,12 +361,14 @@ function resolveModule({ path, name, line }, file, source) {
  *
  * @param {string} text
  * @param {string} file Absolute path.
- * @param {{ shrink?: boolean }} options `shrink`: leaves out comments and spaces, for what is published.
+ * @param {{ shrink?: boolean, page?: boolean }} options `shrink`: leaves out comments and spaces, and shortens names in
+ *   functions, for what is published. `page`: empty lines too, for a page that is built, which names no lines of its
+ *   sources.
  * @returns {{ code: string, map: { version: 3, sources: string[], sourcesContent: string[], names: string[], mappings:
  * string } }}
  * @throws {WeslError}
  */
-export function compileWesl(text, file, { shrink = false } = {}) {
+export function compileWesl(text, file, { shrink = false, page = false } = {}) {
   const parsed = parseWesl(text, file);
   const { folder, short } = packageOf(file);
   const source = join(folder, 'src');
@@ -403,7 +405,8 @@ export function compileWesl(text, file, { shrink = false } = {}) {
     .at(-1)
     .replace(/\.wesl$/, '')
     .replaceAll('_', '-')}`;
-  const template = gatedText(text, parsed, shrink)
+  const lines = gatedText(text, parsed, shrink || page);
+  const template = (page ? lines.replace(/\n\n+/g, '\n').trimStart() : lines)
     .replace(/[\\`]|\$(?=\{)/g, '\\$&')
     .replace(/[A-Za-z_]\w*/g, (name) => (numbers.has(name) ? `\${${numbers.get(name)}}u` : name));
   // All on the first line, so that each line of the result is that of the file.
@@ -416,7 +419,7 @@ export function compileWesl(text, file, { shrink = false } = {}) {
   };
 }
 
-/** For esbuild and tsup. @param {{ shrink?: boolean }} options */
+/** For esbuild and tsup. @param {{ shrink?: boolean, page?: boolean }} options As for {@link compileWesl}. */
 export const weslSource = (options = {}) => ({
   name: 'wesl',
   setup(build) {
@@ -431,18 +434,17 @@ export const weslSource = (options = {}) => ({
   },
 });
 
-/** For Vite, Vitest and VitePress. Builds leave out comments and spaces. */
+/** For Vite, Vitest and VitePress. What they build are pages. */
 export const weslModules = () => {
-  let shrink = false;
+  let page = false;
   return {
     name: 'wesl',
     enforce: 'pre',
-    configResolved: ({ command }) => void (shrink = command === 'build'),
+    configResolved: ({ command }) => void (page = command === 'build'),
     transform: (text, id) => {
       if (!id.endsWith('.wesl')) return undefined;
-      const { code, map } = compileWesl(text, id, { shrink });
-      // A page that is built names no lines of its sources.
-      return shrink ? { code: code.replace(/\n\n+/g, '\n').replace('`\n', '`'), map: null } : { code, map };
+      const { code, map } = compileWesl(text, id, { page });
+      return { code, map: page ? null : map };
     },
   };
 };
