@@ -12,13 +12,12 @@ import {
 import { inErrorScopes } from '../device/error-scopes';
 import type { ResourceProvider } from '../storage/scene-resources';
 import type { KernelSet } from './kernel-cache';
-import { CONNECT_CROSSINGS } from './connect.wgsl';
+import { CONNECT_CROSSINGS, WALK_STEPS } from './limits';
 import { BLOCK } from '../storage/blocks';
 import { batchStruct, frameStruct, shadowRecords } from '../storage/layout';
 import { pathLayout } from '../path/path.wgsl';
 import { MAX_LIGHT_GROUPS } from '../storage/resources';
 import type { Kernel, KernelFeatures, KernelName } from './pipelines';
-import { WALK_STEPS } from './volume.wgsl';
 import type { Batch } from '../schedule/scheduler';
 import { isSoftware } from '../device/software';
 

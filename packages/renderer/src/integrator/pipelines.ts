@@ -1,23 +1,26 @@
-import { openpbr } from '@glanz/openpbr';
+import { openpbr, openpbrPhase } from '@glanz/openpbr';
 import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { inErrorScopes, lossOr } from '../device/error-scopes';
 import { OPACITY_ID, type TexturedParameterInfo } from '../materials/materials';
 import { accept } from '../geometry/accept.wgsl';
-import { connect } from './connect.wgsl';
+import advance from './advance.wesl';
+import begin from './begin.wesl';
+import connect from './connect.wesl';
 import { filmModule, relightModule } from '../film/film.wgsl';
-import { pathLayout } from '../path/path.wgsl';
+import { pathLayout, pathSample, pathCone } from '../path/path.wgsl';
 import { noiseModule } from '../schedule/noise.wgsl';
 import { positionModule } from '../film/position.wgsl';
 import energyHost from '../materials/energy.wesl';
 import { featuresModule } from '../film/features.wgsl';
-import { firstLightModule } from './first-light.wgsl';
-import { generate } from './generate.wgsl';
-import { intersect } from './intersect.wgsl';
+import firstLight from './first_light.wesl';
+import generate from './generate.wesl';
+import intersect from './intersect.wesl';
+import { media, mediaFront } from '../materials/media.wgsl';
+import { areaLightGathering } from '../lights/area-lights.wgsl';
 import { lightsModule } from '../lights/lights.wgsl';
 import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../storage/resources';
 import { resolveModule } from '../film/resolve.wgsl';
-import { advance, begin } from './schedule.wgsl';
 import { shadeModule } from './shade.wgsl';
 import { straight } from '../materials/straight.wgsl';
 import { materialModule, opacityModule, surfaceModule } from '../materials/surface.wgsl';
@@ -78,7 +81,10 @@ export interface Kernel {
 }
 
 interface KernelText {
+  /** The module with the entry point. */
   readonly root: WgslModule;
+  /** What depends on the scene and supplies the root with what its `host.wesl` files declare. */
+  readonly host?: readonly (WgslModule | false | undefined)[];
   readonly resources: readonly ResourceName[];
   readonly textures: boolean;
   /** Where they are not the scene's. */
@@ -115,7 +121,12 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const scene: ResourceName[] = ['triangles', 'instances', 'attributes', 'materials'];
   switch (name) {
     case 'generate':
-      return { root: generate(path), resources: ['frame', 'batch', 'paths', 'queues', 'film_pixels'], textures: false };
+      return {
+        root: generate,
+        host: [path, pathSample, pathCone],
+        resources: ['frame', 'batch', 'paths', 'queues', 'film_pixels'],
+        textures: false,
+      };
     case 'begin':
       return { root: begin, resources: ['batch', 'queues', 'dispatch'], textures: false };
     case 'advance':
@@ -132,7 +143,15 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         ]),
       ];
       return {
-        root: intersect(path, traversal('closest')),
+        root: intersect,
+        host: [
+          path,
+          (flags.OPACITY || flags.SCATTERING) && pathSample,
+          traversal('closest'),
+          flags.AREA_LIGHTS && areaLightGathering(path),
+          flags.MEDIA && media,
+          flags.SCATTERING && openpbrPhase,
+        ],
         resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'],
         textures: flags.OPACITY === true,
       };
@@ -151,11 +170,14 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         ]),
       ];
       return {
-        root: connect(
+        root: connect,
+        host: [
           path,
+          flags.OPACITY && pathSample,
           traversal(flags.NULL_SURFACES ? 'closest' : 'any', shadowFlags),
-          straight(surface, openpbr),
-        ),
+          ...(flags.NULL_SURFACES ? [media, mediaFront] : []),
+          flags.STRAIGHT && straight(surface, openpbr),
+        ],
         resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'],
         textures: flags.OPACITY === true || flags.STRAIGHT === true,
         flags: shadowFlags,
@@ -209,7 +231,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       const firstFlags = { ...flags, OPACITY: false, CATCHER: false };
       // Neither opacity nor catchers: they would bring half of the renderer.
       return {
-        root: firstLightModule(traversal('closest', firstFlags)),
+        root: firstLight,
+        host: [traversal('closest', firstFlags)],
         resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'],
         textures: false,
         flags: firstFlags,
@@ -246,7 +269,8 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
   const own = text.flags ?? features.flags;
   const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true };
   const bindings = bindingModule(name, text.resources, sceneBindings, flags);
-  const shader = compose([bindings, text.root], { flags });
+  const host = (text.host ?? []).filter((module) => !!module);
+  const shader = compose([bindings, ...host, text.root], { flags });
   return {
     key: `${name}\n${shader.code}`,
     async compile(device) {

@@ -49,9 +49,6 @@ export const frameStruct = struct('Frame', {
   mean_luminance: 'f32',
 });
 
-/** The module of {@link frameStruct}, by the name that shaders import. */
-export const Frame = frameStruct.module;
-
 /** The part of the image and the samples that one batch works on. */
 export const batchStruct = struct('Batch', {
   pixel_offset: 'u32',
@@ -213,3 +210,9 @@ export const LIGHT_NODE_DISTANT = 2;
 /** Frame.background bits: the environment is hidden from the camera; misses leave the pixel transparent. */
 export const BACKGROUND_HIDDEN = 1;
 export const BACKGROUND_TRANSPARENT = 2;
+
+// The modules of structs, by the names that shaders import.
+export const Frame = frameStruct.module;
+export const Batch = batchStruct.module;
+export const Instance = instanceStruct.module;
+export const Material = materialStruct.module;

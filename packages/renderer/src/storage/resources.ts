@@ -2,6 +2,7 @@ import { bvhNodeStruct } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from './buffers';
 import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowRecords } from './layout';
+import queues from './queues.wesl';
 
 /** Light groups that an image may have. */
 export const MAX_LIGHT_GROUPS = 16;
@@ -21,24 +22,6 @@ interface Resource {
   /** The struct of its elements, where that depends on the scene. */
   readonly layout?: (flags: Flags) => { readonly module: WgslModule };
 }
-
-const queues = wgslModule(
-  'renderer/queues-struct',
-  /* wgsl */ `
-// Two lists of path indices: the one being worked on and the next; "items" holds both, half its length each.
-struct Queues {
-  depth: u32,
-  active_count: u32,
-  shadow_active: u32,
-  bad_samples: atomic<u32>,
-  next_count: atomic<u32>,
-  shadow_count: atomic<u32>,
-  capacity: u32,
-  // Rays traced, modulo 2^32.
-  rays: u32,
-  items: array<u32>,
-}`,
-);
 
 const RESOURCES = {
   frame: { type: 'Frame', space: 'uniform', deps: [frameStruct.module] },
