@@ -61,6 +61,7 @@ export class Engine {
   #tracerDevice: GPUDevice | undefined;
   #source: Source | undefined;
   #film: Size = [1, 1];
+  #canvasSize: Size = [1, 1];
   #state: ViewerState = 'empty';
   #failed = false;
   #destroyed = false;
@@ -266,11 +267,12 @@ export class Engine {
     this.#stir();
   }
 
-  /** Size of the image and of the canvas, pixels. */
-  resize(size: Size): void {
-    if (sameSize(size, this.#film)) return;
-    this.#films.forget();
-    this.#film = size;
+  /** Sizes of the image and of the canvas, pixels. */
+  resize(film: Size, canvas: Size): void {
+    if (sameSize(film, this.#film) && sameSize(canvas, this.#canvasSize)) return;
+    if (!sameSize(film, this.#film)) this.#films.forget();
+    this.#film = film;
+    this.#canvasSize = canvas;
     this.#tryAgain();
     this.touch();
   }
@@ -373,8 +375,8 @@ export class Engine {
     const prepared = this.#preparation.run(
       (wanted) => makeTracer(this.#connection, restoring, () => options(wanted)),
       ({ tracer, device }) => {
-        // Who asks for the canvas's size before the first image is drawn gets that of the image.
-        if (!this.#tracer) this.#connection.display?.resize(this.#film);
+        // Who asks for the canvas's size before the first image is drawn gets the one that it will have.
+        if (!this.#tracer) this.#connection.display?.resize(this.#canvasSize);
         this.#tracer?.destroy();
         this.#tracer = tracer;
         this.#tracerDevice = device;
@@ -668,7 +670,7 @@ export class Engine {
     if (preview) display.forget();
     const share = display.kept > 0 ? previewShare(tracer.samples, display.kept, this.settings.samples) : 0;
     if (share === 0 && display.kept > 0) display.forget();
-    display.draw({ buffer: tracer.beautyBuffer, size }, this.#film, share);
+    display.draw({ buffer: tracer.beautyBuffer, size }, this.#canvasSize, share);
     this.#host.drawn(this.#state === 'moving', milliseconds, size);
   }
 }

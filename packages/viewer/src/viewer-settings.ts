@@ -304,7 +304,8 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
 
   #resized(): void {
     const { canvas } = this;
-    this.engine.resize(imageSize(canvas.clientWidth, canvas.clientHeight, this.#pixelRatio, this.options.maxPixels));
+    const size = imageSize(canvas.clientWidth, canvas.clientHeight, this.#pixelRatio, this.options.maxPixels);
+    this.engine.resize(size, size);
   }
 
   async #relight(): Promise<void> {
