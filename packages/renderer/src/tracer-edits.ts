@@ -38,7 +38,8 @@ export abstract class TracerEdits {
   /**
    * Replaces the environment and restarts the film. The `data` array of the present environment with another rotation,
    * intensity or visibility is neither validated nor read again, and costs what {@link adjustEnvironment} costs. So do
-   * not change its texels in place; pass another array.
+   * not change its texels in place; pass another array. Another image is validated and prepared a few milliseconds at a
+   * time; later edits of the environment wait for it, all others do not.
    *
    * @throws {SceneError} for values that an environment cannot have.
    */

@@ -246,10 +246,10 @@ export class GpuScene {
    * Takes the scene's environment. Returns true if bindings were replaced: not for another rotation or intensity of the
    * same image.
    */
-  updateEnvironment(environment: Environment | undefined): boolean {
+  updateEnvironment(environment: Environment | undefined, prepared?: EnvironmentData): boolean {
     const before = this.#environment;
     this.#features = undefined;
-    this.#environment = turnEnvironment(before, environment) ?? prepareEnvironment(environment);
+    this.#environment = turnEnvironment(before, environment) ?? prepared ?? prepareEnvironment(environment);
     const replaced = this.#environment.pixels !== before.pixels || this.#environment.table !== before.table;
     if (replaced) {
       makeEnvironmentTextures(this.#resources, this.#environment, before);

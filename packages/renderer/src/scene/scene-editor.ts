@@ -1,7 +1,9 @@
 import type { Blas } from '@glanz/bvh';
 import {
   createScene,
+  inSlices,
   validateScene,
+  validationSteps,
   type Environment,
   type Instance,
   type Light,
@@ -12,7 +14,7 @@ import {
 import { RenderError } from '../errors';
 import type { GpuScene } from './gpu-scene';
 import { checkParameters } from '../materials/check-parameters';
-import { hasSameTexels } from '../environment/environment';
+import { environmentSteps, hasSameTexels, type EnvironmentData } from '../environment/environment';
 import {
   attributeWords,
   layOutGeometry,
@@ -78,6 +80,8 @@ export class SceneEditor {
   #named: Map<string, number[]> | undefined;
   #geometry: Geometry;
   #version = 0;
+  /** Settles when the edits of the environment so far are prepared. */
+  #lighting: Promise<void> | undefined;
 
   constructor(scene: Scene, geometry: Geometry, gpu: GpuScene, hierarchies: HierarchyBuilder | undefined) {
     this.scene = scene;
@@ -147,27 +151,26 @@ export class SceneEditor {
     };
   }
 
-  setEnvironment(environment: Environment | undefined): SceneChange {
-    // Texels that are on the GPU have been validated: of an image at another rotation only the numbers beside it are,
-    // with a black texel.
-    const checked = hasSameTexels(this.#gpu.environment, environment)
-      ? { ...environment, width: 1, height: 1, data: new Float32Array(3) }
-      : environment;
-    if (checked) validateScene({ ...createScene(), environment: checked });
-    return this.#changeEnvironment(environment);
+  setEnvironment(environment: Environment | undefined): SceneChange | Promise<SceneChange> {
+    return this.#afterImages(() => {
+      // Texels that are on the GPU have been validated: of an image at another rotation only the numbers beside it are,
+      // with a black texel.
+      if (environment?.type === 'latlong' && !hasSameTexels(this.#gpu.environment, environment))
+        return this.#prepareImage(environment);
+      const checked =
+        environment?.type === 'latlong'
+          ? { ...environment, width: 1, height: 1, data: new Float32Array(3) }
+          : environment;
+      if (checked) validateScene({ ...createScene(), environment: checked });
+      return this.#changeEnvironment(environment);
+    });
   }
 
   adjustEnvironment(change: {
     readonly rotation?: number;
     readonly intensity?: number;
     readonly visible?: boolean;
-  }): SceneChange {
-    const { environment } = this.scene;
-    if (!environment)
-      throw new RenderError(
-        'renderer/environment',
-        'The scene has no environment to change; set one with setEnvironment().',
-      );
+  }): SceneChange | Promise<SceneChange> {
     for (const name of ['rotation', 'intensity'] as const) {
       const value = change[name];
       if (value !== undefined && !Number.isFinite(value))
@@ -181,19 +184,45 @@ export class SceneEditor {
         'renderer/environment',
         `The environment's intensity must be at least 0, not ${change.intensity}.`,
       );
-    if (environment.type === 'constant' && change.intensity !== undefined)
-      throw new RenderError(
-        'renderer/environment',
-        'A constant environment has no intensity; set another radiance with setEnvironment().',
+    return this.#afterImages(() => {
+      const { environment } = this.scene;
+      if (!environment)
+        throw new RenderError(
+          'renderer/environment',
+          'The scene has no environment to change; set one with setEnvironment().',
+        );
+      if (environment.type === 'constant' && change.intensity !== undefined)
+        throw new RenderError(
+          'renderer/environment',
+          'A constant environment has no intensity; set another radiance with setEnvironment().',
+        );
+      const { visible = environment.visible ?? true } = change;
+      // The pixels were validated when they were set.
+      return this.#changeEnvironment(
+        environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible },
       );
-    const { visible = environment.visible ?? true } = change;
-    // The pixels were validated when they were set.
-    return this.#changeEnvironment(
-      environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible },
-    );
+    });
   }
 
-  #changeEnvironment(environment: Environment | undefined): SceneChange {
+  /** At once, or after the images that are being prepared, so that edits of the environment stay in their order. */
+  #afterImages(prepare: () => SceneChange | Promise<SceneChange>): SceneChange | Promise<SceneChange> {
+    const change = this.#lighting ? this.#lighting.then(prepare) : prepare();
+    if (change instanceof Promise) {
+      const settle = () => {
+        if (this.#lighting === lighting) this.#lighting = undefined;
+      };
+      const lighting: Promise<void> = (this.#lighting = change.then(settle, settle));
+    }
+    return change;
+  }
+
+  /** Validates an image and computes what the GPU needs of it, a slice at a time. */
+  async #prepareImage(environment: Environment): Promise<SceneChange> {
+    await inSlices(validationSteps({ ...createScene(), environment }));
+    return this.#changeEnvironment(environment, await inSlices(environmentSteps(environment)));
+  }
+
+  #changeEnvironment(environment: Environment | undefined, prepared?: EnvironmentData): SceneChange {
     const before = this.scene.environment;
     const set = (value: Environment | undefined) => {
       if (value) this.scene.environment = value;
@@ -203,7 +232,7 @@ export class SceneEditor {
       isStale: () => this.scene.environment !== before,
       apply: () => {
         set(environment);
-        return this.#gpu.updateEnvironment(environment);
+        return this.#gpu.updateEnvironment(environment, prepared);
       },
       undo: () => set(before),
     };

@@ -355,4 +355,60 @@ describe('edits of a live tracer', () => {
     expect(largest(await beauty(tracer), before)).toBe(0);
     tracer.destroy();
   });
+
+  it('a new image is prepared in slices: the event loop turns meanwhile, and other edits hold', async () => {
+    const tracer = await PathTracer.create(device, stage(), options);
+    const [width, height] = [4096, 2048];
+    const large = { ...sky(0), width, height, data: new Float32Array(width * height * 3).fill(0.5) };
+    let turns = 0;
+    const turn = () => {
+      turns++;
+      turning = setImmediate(turn);
+    };
+    let turning = setImmediate(turn);
+    const lit = tracer.setEnvironment(large);
+    await tracer.setMaterial('ball', { base_color: [0.1, 0.1, 0.9] });
+    expect((tracer.scene.environment as LatLongEnvironment).width).toBe(16);
+    await lit;
+    clearImmediate(turning);
+    expect(turns).toBeGreaterThan(3);
+    const after = await beauty(tracer);
+    tracer.destroy();
+    const same = stage();
+    same.environment = large;
+    same.materials[1]!.parameters = { ...same.materials[1]!.parameters, base_color: [0.1, 0.1, 0.9] };
+    expect(largest(after, await fresh(same))).toBe(0);
+  });
+
+  it('edits of the environment hold in the order in which they were made, although images take longer', async () => {
+    const tracer = await PathTracer.create(device, stage(), options);
+    const picture = (value: number): LatLongEnvironment => ({
+      ...sky(0),
+      width: 1024,
+      height: 512,
+      data: new Float32Array(1024 * 512 * 3).fill(value),
+    });
+    const [first, second] = [picture(0.2), picture(0.7)];
+    await Promise.all([
+      tracer.setEnvironment(first),
+      tracer.setEnvironment(second),
+      tracer.adjustEnvironment({ rotation: 1, intensity: 2 }),
+    ]);
+    expect(tracer.scene.environment).toEqual({ ...second, rotation: 1, intensity: 2, visible: true });
+    await Promise.all([
+      tracer.setEnvironment(first),
+      tracer.setEnvironment({ type: 'constant', radiance: [1, 1, 1] }),
+      expect(tracer.adjustEnvironment({ intensity: 2 })).rejects.toMatchObject({ code: 'renderer/environment' }),
+    ]);
+    expect(tracer.scene.environment).toEqual({ type: 'constant', radiance: [1, 1, 1] });
+    // One that is refused keeps nobody waiting.
+    await Promise.all([
+      expect(tracer.setEnvironment({ ...first, data: new Float32Array(3) })).rejects.toMatchObject({
+        code: expect.stringMatching(/^scene\//),
+      }),
+      tracer.setEnvironment(undefined),
+    ]);
+    expect(tracer.scene.environment).toBeUndefined();
+    tracer.destroy();
+  });
 });
