@@ -4,7 +4,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { basename, dirname, join, relative, resolve, sep } from 'node:path';
 import { link } from 'wesl';
 import { describe, expect, it } from 'vitest';
-import { compose, type WgslModule } from '../../../packages/wgsl/src/index';
+import { compose, wgslModule, type WgslModule } from '../../../packages/wgsl/src/index';
 import { wgslDeclarations } from '../../bench/src/hashes/digest';
 import { isHost, parseWesl } from '../wesl.mjs';
 
@@ -23,6 +23,9 @@ const key = (file: string) => `./${relative(sourceOf(file), file).split(sep).joi
 /** Literals of the numbers that shaders import from TypeScript. */
 const numbers = new Map<string, string>();
 
+/** What files of TypeScript make for shaders: the modules of each, by the names that are imported. */
+const made = new Map<string, Map<string, WgslModule>>();
+
 /** A file with all that it imports; modules that TypeScript makes are given as the text that they compose to. */
 async function collect(file: string, sources: Sources = {}): Promise<Sources> {
   if (sources[key(file)] !== undefined) return sources;
@@ -34,12 +37,13 @@ async function collect(file: string, sources: Sources = {}): Promise<Sources> {
       continue;
     }
     const typescript = join(dirname(target), `${basename(target).replaceAll('_', '-')}.ts`);
-    const made = ((await import(/* @vite-ignore */ typescript)) as Record<string, WgslModule | number>)[name]!;
-    const known = sources[key(`${target}.wesl`)] ?? '';
-    if (typeof made === 'number') {
-      numbers.set(name, `${made}u`);
-      if (!known.includes(`const ${name} `)) sources[key(`${target}.wesl`)] = `${known}const ${name} = ${made}u;\n`;
-    } else if (!known.includes(`struct ${name} `)) sources[key(`${target}.wesl`)] = `${known}${compose([made]).code}`;
+    const value = ((await import(/* @vite-ignore */ typescript)) as Record<string, WgslModule | number>)[name]!;
+    const modules = made.get(typescript) ?? new Map<string, WgslModule>();
+    made.set(typescript, modules);
+    if (typeof value === 'number') numbers.set(name, `${value}u`);
+    if (!modules.has(name))
+      modules.set(name, typeof value === 'number' ? wgslModule(name, `const ${name} = ${value}u;`) : value);
+    sources[key(`${target}.wesl`)] = compose([...modules.values()]).code;
   }
   return sources;
 }
@@ -152,7 +156,8 @@ function reachable(from: Iterable<string>, declarations: ReadonlyMap<string, str
     const declaration = declarations.get(name);
     if (found.has(name) || declaration === undefined) return;
     found.add(name);
-    for (const token of declaration.split(' ')) visit(token);
+    // A member may have the name of a function.
+    for (const token of declaration.replace(/\. \w+/g, '').split(' ')) visit(token);
   };
   for (const name of from) visit(name);
   return found;

@@ -1,6 +1,6 @@
 import { TileGrid } from '../schedule/adaptive';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type GpuMemory } from '../storage/buffers';
-import { TILE } from '../schedule/noise.wgsl';
+import { TILE } from '../schedule/tile';
 
 /** Made when a kernel first binds them: they belong to layers that few ask for. */
 const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_normal', 'feature_ids', 'feature_position']);

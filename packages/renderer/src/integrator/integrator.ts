@@ -15,7 +15,7 @@ import type { KernelSet } from './kernel-cache';
 import { CONNECT_CROSSINGS, WALK_STEPS } from './limits';
 import { BLOCK } from '../storage/blocks';
 import { batchStruct, frameStruct, shadowRecords } from '../storage/layout';
-import { pathLayout } from '../path/path.wgsl';
+import { pathLayout } from '../path/path-layout';
 import { MAX_LIGHT_GROUPS } from '../storage/resources';
 import type { Kernel, KernelFeatures, KernelName } from './pipelines';
 import type { Batch } from '../schedule/scheduler';

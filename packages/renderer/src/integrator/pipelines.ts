@@ -7,9 +7,9 @@ import { accept } from '../geometry/accept.wgsl';
 import advance from './advance.wesl';
 import begin from './begin.wesl';
 import connect from './connect.wesl';
-import { filmModule, relightModule } from '../film/film.wgsl';
-import { pathLayout, pathSample, pathCone } from '../path/path.wgsl';
-import { noiseModule } from '../schedule/noise.wgsl';
+import { pathLayout } from '../path/path-layout';
+import noise from '../film/noise.wesl';
+import relight from '../film/relight.wesl';
 import { positionModule } from '../film/position.wgsl';
 import energyHost from '../materials/energy.wesl';
 import { featuresModule } from '../film/features.wgsl';
@@ -20,7 +20,7 @@ import { media, mediaFront } from '../materials/media.wgsl';
 import { areaLightGathering } from '../lights/area-lights.wgsl';
 import { lightsModule } from '../lights/lights.wgsl';
 import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../storage/resources';
-import { resolveModule } from '../film/resolve.wgsl';
+import resolve from '../film/resolve.wesl';
 import { shadeModule } from './shade.wgsl';
 import { straight } from '../materials/straight.wgsl';
 import { materialModule, opacityModule, surfaceModule } from '../materials/surface.wgsl';
@@ -109,8 +109,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
   // What subsurface scatters depends on how its surface reflects.
   const walking: ResourceName[] = flags.OPENPBR_SUBSURFACE ? energy : [];
-  const path = pathLayout(features).module;
-  const film = filmModule(features.planes, flags.CATCHER === true);
+  const { module: path, planes } = pathLayout(features);
   const filmBuffers: ResourceName[] = [
     'film_block',
     'film_total',
@@ -123,7 +122,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'generate':
       return {
         root: generate,
-        host: [path, pathSample, pathCone],
+        host: [path],
         resources: ['frame', 'batch', 'paths', 'queues', 'film_pixels'],
         textures: false,
       };
@@ -146,7 +145,6 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         root: intersect,
         host: [
           path,
-          (flags.OPACITY || flags.SCATTERING) && pathSample,
           traversal('closest'),
           flags.AREA_LIGHTS && areaLightGathering(path),
           flags.MEDIA && media,
@@ -173,7 +171,6 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         root: connect,
         host: [
           path,
-          flags.OPACITY && pathSample,
           traversal(flags.NULL_SURFACES ? 'closest' : 'any', shadowFlags),
           ...(flags.NULL_SURFACES ? [media, mediaFront] : []),
           flags.STRAIGHT && straight(surface, openpbr),
@@ -202,14 +199,15 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       };
     case 'resolve':
       return {
-        root: resolveModule(path, film),
+        root: resolve,
+        host: [path, planes],
         resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers],
         textures: false,
       };
     case 'relight':
-      return { root: relightModule(film), resources: ['batch', ...filmBuffers], textures: false };
+      return { root: relight, host: [planes], resources: ['batch', ...filmBuffers], textures: false };
     case 'noise':
-      return { root: noiseModule(film), resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
+      return { root: noise, host: [planes], resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
     case 'position':
       return {
         root: positionModule(traversal('closest')),
@@ -267,7 +265,7 @@ export function kernelSource(name: KernelName, features: KernelFeatures): Kernel
       ]
     : [];
   const own = text.flags ?? features.flags;
-  const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true };
+  const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true, PLANES: features.planes > 1 };
   const bindings = bindingModule(name, text.resources, sceneBindings, flags);
   const host = (text.host ?? []).filter((module) => !!module);
   const shader = compose([bindings, ...host, text.root], { flags });

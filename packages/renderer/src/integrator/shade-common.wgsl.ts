@@ -1,6 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BACKGROUND_TRANSPARENT } from '../storage/layout';
-import { pathSample } from '../path/path.wgsl';
+import pathSample from '../path/path_sample.wesl';
 import random from '../random/random.wesl';
 
 /** What all vertices of a path have in common, on surfaces and between them. The host declares `frame` and `Shadow`. */

@@ -1,8 +1,8 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { media } from '../materials/media.wgsl';
-import { pathCone } from '../path/path.wgsl';
+import pathCone from '../path/path_cone.wesl';
 import random from '../random/random.wesl';
-import { shortcuts } from '../path/shortcuts.wgsl';
+import shortcuts from '../path/shortcuts.wesl';
 
 /**
  * `fn shade_scattering(index: u32, iteration: u32, depth: u32) -> ShadeResult`: a vertex in an interior without an

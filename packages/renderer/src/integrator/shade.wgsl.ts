@@ -16,8 +16,9 @@ import random from '../random/random.wesl';
 import { shadeCommon } from './shade-common.wgsl';
 import { shadeScattering } from './shade-scattering.wgsl';
 import shadingNormal from '../materials/shading_normal.wesl';
-import { shortcuts } from '../path/shortcuts.wgsl';
-import { pathCone, pathSample } from '../path/path.wgsl';
+import shortcuts from '../path/shortcuts.wesl';
+import pathCone from '../path/path_cone.wesl';
+import pathSample from '../path/path_sample.wesl';
 
 /**
  * One vertex of every active path: what the surface emits, a light sample to be tested by the connect kernel, and the

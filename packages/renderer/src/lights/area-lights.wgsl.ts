@@ -1,8 +1,8 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GROUP_SHIFT, LIGHT_HIDDEN, LIGHT_RECTANGLE, LIGHT_SPHERE, frameStruct, lightStruct } from '../storage/layout';
 import { lightChoice } from './light-choice.wgsl';
-import { pathCone } from '../path/path.wgsl';
-import { shortcuts } from '../path/shortcuts.wgsl';
+import pathCone from '../path/path_cone.wesl';
+import shortcuts from '../path/shortcuts.wesl';
 import tangent from '../materials/tangent.wesl';
 
 /**

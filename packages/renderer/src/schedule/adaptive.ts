@@ -1,4 +1,4 @@
-import { TILE } from './noise.wgsl';
+import { TILE } from './tile';
 
 /** Samples before noise is first looked at: four chunks. */
 export const FIRST_CHECK = 64;

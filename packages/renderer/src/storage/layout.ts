@@ -1,4 +1,4 @@
-import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
+import { bvhInstanceStruct, bvhNodeStruct } from '@glanz/bvh/wgsl';
 import { openPbrStruct } from '@glanz/openpbr';
 import { struct } from '@glanz/wgsl';
 import { blockLayout } from './blocks';
@@ -216,3 +216,6 @@ export const Frame = frameStruct.module;
 export const Batch = batchStruct.module;
 export const Instance = instanceStruct.module;
 export const Material = materialStruct.module;
+export const Light = lightStruct.module;
+export const OpenPbrParameters = openPbrStruct.module;
+export const BvhNode = bvhNodeStruct.module;

@@ -1,7 +1,6 @@
-import { bvhNodeStruct } from '@glanz/bvh/wgsl';
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from './buffers';
-import { batchStruct, frameStruct, instanceStruct, lightStruct, materialStruct, shadowRecords } from './layout';
+import { Batch, BvhNode, Frame, Instance, Light, Material, shadowRecords } from './layout';
 import queues from './queues.wesl';
 
 /** Light groups that an image may have. */
@@ -24,19 +23,19 @@ interface Resource {
 }
 
 const RESOURCES = {
-  frame: { type: 'Frame', space: 'uniform', deps: [frameStruct.module] },
-  batch: { type: 'Batch', space: 'uniform', deps: [batchStruct.module] },
+  frame: { type: 'Frame', space: 'uniform', deps: [Frame] },
+  batch: { type: 'Batch', space: 'uniform', deps: [Batch] },
   // Its layout depends on the scene: the kernels bring it with `pathLayout`.
   paths: { type: 'array<PathBlock>', space: 'read_write' },
   queues: { type: 'Queues', space: 'read_write', deps: [queues] },
   shadows: { type: 'array<ShadowBlock>', space: 'read_write', layout: shadowRecords },
   dispatch: { type: 'array<u32, 8>', space: 'read_write' },
-  nodes: { type: 'array<BvhNode>', space: 'read', deps: [bvhNodeStruct.module] },
+  nodes: { type: 'array<BvhNode>', space: 'read', deps: [BvhNode] },
   triangles: { type: 'array<vec4f>', space: 'read' },
-  instances: { type: 'array<Instance>', space: 'read', deps: [instanceStruct.module] },
+  instances: { type: 'array<Instance>', space: 'read', deps: [Instance] },
   attributes: { type: 'array<u32>', space: 'read' },
-  materials: { type: 'array<Material>', space: 'read', deps: [materialStruct.module] },
-  lights: { type: 'array<Light>', space: 'read', deps: [lightStruct.module] },
+  materials: { type: 'array<Material>', space: 'read', deps: [Material] },
+  lights: { type: 'array<Light>', space: 'read', deps: [Light] },
   environment: { type: 'texture_2d<f32>', space: 'unfilterable' },
   environment_table: { type: 'texture_2d<f32>', space: 'unfilterable' },
   energy_dielectric: { type: 'texture_3d<f32>', space: 'texture_3d' },

@@ -5,7 +5,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from '../../src/storage/layout';
 import { lightTree } from '../../src/lights/light-tree.wgsl';
-import { pathCone } from '../../src/path/path.wgsl';
+import pathCone from '../../src/path/path_cone.wesl';
 import { lightTreeSteps } from '../../src/lights/light-tree';
 import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
 import { random, randomLights, randomUnit, treeNodes } from '../tree-lights';

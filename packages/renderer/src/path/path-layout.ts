@@ -1,0 +1,85 @@
+import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { blockLayout, type BlockLayout } from '../storage/blocks';
+import { filmPlanes } from '../storage/film-planes';
+import path from './path.wesl';
+
+/** What decides how much a path carries. */
+export interface PathShape {
+  /** Sums of light that are kept apart: one for each light group, four times as many with catchers. */
+  readonly planes: number;
+  /**
+   * With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for,
+   * with `MEDIA` the interiors they are in.
+   */
+  readonly flags: Readonly<Record<string, boolean>>;
+}
+
+/** A path between two kernels, and the functions by which kernels add light to it. */
+export interface PathLayout {
+  /** How paths lie in memory. */
+  readonly records: BlockLayout;
+  /**
+   * `fn path_<field>(index: u32)` and `fn path_set_<field>(index: u32, value)` for each field, see {@link blockLayout},
+   * and `path.wesl`.
+   */
+  readonly module: WgslModule;
+  /** The numbers of planes and groups, see {@link filmPlanes}. */
+  readonly planes: WgslModule;
+}
+
+const layouts = new Map<string, PathLayout>();
+
+const COMMON = {
+  origin: 'vec3f',
+  /** Solid-angle density with which the direction was chosen. */
+  pdf: 'f32',
+  direction: 'vec3f',
+  /** Width of its footprint at the origin, and the normal there; see `path_cone.wesl`. */
+  cone: 'u32',
+  throughput: 'vec3f',
+  alpha: 'f32',
+  /** Barycentrics as float bits, triangle, instance; see BvhHit. */
+  hit: 'vec4u',
+} as const;
+
+const STATE = {
+  /** Bounces so far, a byte each: diffuse, specular, transmitted, in volumes. */
+  bounces: 'u32',
+  /** Widest bounce so far, as the α of a GGX lobe as wide. */
+  spread: 'f32',
+} as const;
+
+/** What a path carries in a scene with interiors. */
+const INTERIOR = {
+  /** The interiors it is in; see the media module. */
+  media: 'vec2u',
+  /** Low half: edges so far; high half: scattering events in media. */
+  counters: 'u32',
+  /** Metres from the last vertex to the origin, past surfaces that are not there. */
+  travelled: 'f32',
+  /** Nanometres, once dispersion has chosen one; 0 before. */
+  wavelength: 'f32',
+} as const;
+
+/** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
+export function pathLayout({ planes, flags }: PathShape): PathLayout {
+  const key = `${planes} ${flags.PATH_STATE === true} ${flags.CATCHER === true} ${flags.MEDIA === true}`;
+  let layout = layouts.get(key);
+  if (!layout) {
+    const fields = {
+      ...COMMON,
+      ...(planes > 1 ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }),
+      /** Index in the film. */ pixel: 'u32',
+    } as const;
+    const records = blockLayout('Path', 'path', 'paths', {
+      ...fields,
+      ...(flags.PATH_STATE ? STATE : {}),
+      ...(flags.CATCHER ? { role: 'u32' } : {}),
+      ...(flags.MEDIA ? INTERIOR : {}),
+    });
+    const film = filmPlanes(planes, flags.CATCHER === true);
+    const module = wgslModule('renderer/path-of-scene', '', [records.module, gated('PLANES', film), path]);
+    layouts.set(key, (layout = { records, module, planes: film }));
+  }
+  return layout;
+}
