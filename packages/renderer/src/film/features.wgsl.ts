@@ -7,12 +7,7 @@ import random from '../random/random.wesl';
  * First-hit features of one sample per pixel: albedo with coverage, shading normal with depth, and (for sample 0,
  * through the pixel's centre) the ids. Run on demand, with the same camera rays as the image.
  */
-export function featuresModule(
-  surface: WgslModule,
-  openpbr: WgslModule,
-  energy: WgslModule,
-  traversal: WgslModule,
-): WgslModule {
+export function featuresModule(surface: WgslModule, openpbr: WgslModule, energy: WgslModule): WgslModule {
   return wgslModule(
     'renderer/features',
     /* wgsl */ `
@@ -66,6 +61,6 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
   feature_normal[pixel] = normal;
 }
 `,
-    [surface, openpbr, energy, camera, filter, random, traversal],
+    [surface, openpbr, energy, camera, filter, random],
   );
 }

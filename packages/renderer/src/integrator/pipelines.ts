@@ -1,30 +1,31 @@
-import { openpbr, openpbrPhase } from '@glanz/openpbr';
+import { bvhAnyHit, bvhClosestHit } from '@glanz/bvh/wgsl';
+import { openpbr, openpbrMedium, openpbrPhase, openpbrSubsurface } from '@glanz/openpbr';
 import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { inErrorScopes, lossOr } from '../device/error-scopes';
 import { OPACITY_ID, type TexturedParameterInfo } from '../materials/materials';
-import { accept } from '../geometry/accept.wgsl';
 import advance from './advance.wesl';
 import begin from './begin.wesl';
 import connect from './connect.wesl';
 import { pathLayout } from '../path/path-layout';
 import noise from '../film/noise.wesl';
 import relight from '../film/relight.wesl';
-import { positionModule } from '../film/position.wgsl';
+import position from '../film/position.wesl';
 import energyHost from '../materials/energy.wesl';
 import { featuresModule } from '../film/features.wgsl';
 import firstLight from './first_light.wesl';
 import generate from './generate.wesl';
 import intersect from './intersect.wesl';
-import { media, mediaFront } from '../materials/media.wgsl';
-import { areaLightGathering } from '../lights/area-lights.wgsl';
+import media from '../materials/media.wesl';
+import mediaFront from '../materials/media_front.wesl';
+import areaLightGathering from '../lights/area_light_gathering.wesl';
 import { lightsModule } from '../lights/lights.wgsl';
 import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../storage/resources';
 import resolve from '../film/resolve.wesl';
 import { shadeModule } from './shade.wgsl';
 import { straight } from '../materials/straight.wgsl';
 import { materialModule, opacityModule, surfaceModule } from '../materials/surface.wgsl';
-import { traversalModule } from '../geometry/traversal.wgsl';
+import traversal from '../geometry/traversal.wesl';
 
 /** What about a scene decides the text of its kernels. Two scenes with equal features share pipelines. */
 export interface KernelFeatures {
@@ -95,8 +96,12 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const { flags } = features;
   const material = materialModule(features.samplings, features.textured);
   const surface = surfaceModule(material);
-  const traversal = (kind: 'closest' | 'any', chosen = flags) =>
-    traversalModule(kind, chosen.OPACITY || chosen.CULLING ? accept(opacityModule(material, OPACITY_ID)) : undefined);
+  const query = (bvhQuery: WgslModule, chosen = flags) => [
+    bvhQuery,
+    traversal,
+    chosen.OPACITY && opacityModule(material, OPACITY_ID),
+  ];
+  const interiors = [media, openpbrMedium, ...(flags.OPENPBR_SUBSURFACE ? [openpbrSubsurface, energyHost] : [])];
   const filter: ResourceName[] = flags.OPACITY
     ? ['frame', 'batch', 'attributes', 'materials']
     : flags.CATCHER
@@ -145,9 +150,9 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         root: intersect,
         host: [
           path,
-          traversal('closest'),
-          flags.AREA_LIGHTS && areaLightGathering(path),
-          flags.MEDIA && media,
+          ...query(bvhClosestHit),
+          flags.AREA_LIGHTS && areaLightGathering,
+          ...(flags.MEDIA ? interiors : []),
           flags.SCATTERING && openpbrPhase,
         ],
         resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'],
@@ -171,8 +176,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         root: connect,
         host: [
           path,
-          traversal(flags.NULL_SURFACES ? 'closest' : 'any', shadowFlags),
-          ...(flags.NULL_SURFACES ? [media, mediaFront] : []),
+          ...query(flags.NULL_SURFACES ? bvhClosestHit : bvhAnyHit, shadowFlags),
+          ...(flags.NULL_SURFACES ? [...interiors, mediaFront] : []),
           flags.STRAIGHT && straight(surface, openpbr),
         ],
         resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'],
@@ -210,7 +215,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       return { root: noise, host: [planes], resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
     case 'position':
       return {
-        root: positionModule(traversal('closest')),
+        root: position,
+        host: query(bvhClosestHit),
         resources: [
           ...new Set<ResourceName>([
             'frame',
@@ -230,7 +236,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       // Neither opacity nor catchers: they would bring half of the renderer.
       return {
         root: firstLight,
-        host: [traversal('closest', firstFlags)],
+        host: query(bvhClosestHit, firstFlags),
         resources: ['frame', 'batch', 'nodes', 'triangles', 'instances', 'materials', 'beauty'],
         textures: false,
         flags: firstFlags,
@@ -238,7 +244,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     }
     case 'features':
       return {
-        root: featuresModule(surface, openpbr, energyHost, traversal('closest')),
+        root: featuresModule(surface, openpbr, energyHost),
+        host: query(bvhClosestHit),
         resources: ['frame', 'batch', 'nodes', ...scene, 'feature_albedo', 'feature_normal', 'feature_ids', ...energy],
         textures: true,
       };

@@ -1,5 +1,5 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
-import { media } from '../materials/media.wgsl';
+import media from '../materials/media.wesl';
 import pathCone from '../path/path_cone.wesl';
 import random from '../random/random.wesl';
 import shortcuts from '../path/shortcuts.wesl';

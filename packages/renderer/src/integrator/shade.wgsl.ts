@@ -11,7 +11,7 @@ import {
   MATERIAL_STRAIGHT,
 } from '../storage/layout';
 import dispersion from './dispersion.wesl';
-import { media } from '../materials/media.wgsl';
+import media from '../materials/media.wesl';
 import random from '../random/random.wesl';
 import { shadeCommon } from './shade-common.wgsl';
 import { shadeScattering } from './shade-scattering.wgsl';

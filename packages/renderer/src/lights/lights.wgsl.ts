@@ -1,5 +1,5 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
-import { areaLightSampling } from './area-lights.wgsl';
+import areaLightSampling from './area_light_sampling.wesl';
 import environment from '../environment/environment.wesl';
 import {
   GROUP_SHIFT,
@@ -12,8 +12,8 @@ import {
   LIGHT_TWO_SIDED,
   lightStruct,
 } from '../storage/layout';
-import { lightChoice } from './light-choice.wgsl';
-import { lightProfile } from './light-profile.wgsl';
+import lightChoice from './light_choice.wesl';
+import lightProfile from './light_profile.wesl';
 import random from '../random/random.wesl';
 
 /** One light sample: where from, how much, how likely. */

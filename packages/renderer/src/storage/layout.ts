@@ -1,4 +1,4 @@
-import { bvhInstanceStruct, bvhNodeStruct } from '@glanz/bvh/wgsl';
+import { bvhInstanceStruct, bvhNodeStruct, bvhTypes } from '@glanz/bvh/wgsl';
 import { openPbrStruct } from '@glanz/openpbr';
 import { struct } from '@glanz/wgsl';
 import { blockLayout } from './blocks';
@@ -219,3 +219,6 @@ export const Material = materialStruct.module;
 export const Light = lightStruct.module;
 export const OpenPbrParameters = openPbrStruct.module;
 export const BvhNode = bvhNodeStruct.module;
+export const BvhInstance = bvhInstanceStruct.module;
+export const BvhHit = bvhTypes;
+export const BvhTriangle = bvhTypes;

@@ -4,7 +4,7 @@ import { finish, type Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct } from '../../src/storage/layout';
-import { lightTree } from '../../src/lights/light-tree.wgsl';
+import lightTree from '../../src/lights/light_tree.wesl';
 import pathCone from '../../src/path/path_cone.wesl';
 import { lightTreeSteps } from '../../src/lights/light-tree';
 import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
@@ -64,7 +64,7 @@ var<private> frame = TestFrame(${COUNT}u);
     result[at + ${2 * COUNT + 1}u] = max(result[at + ${2 * COUNT + 1}u], abs(pick.probability / result[at + pick.light] - 1.0));
   }
 }`,
-      [lightTree, pathCone],
+      [lightStruct.module, lightTree, pathCone],
     );
     const { code } = compose([host], { flags: { SOBOL: false, SCREEN_NOISE: false } });
     const input = Float32Array.from(places.flatMap(({ p, n }) => [...p, 0, ...n, 0]));
