@@ -1,5 +1,5 @@
 /**
- * Computes the energy tables of @glanz/openpbr and writes src/tables/grid.ts and encoded.ts: `node scripts/tables.mjs`,
+ * Computes the energy tables of @glanz/openpbr and writes src/tables/grid.wesl and encoded.ts: `node scripts/tables.mjs`,
  * about a minute. Deterministic. With `--check` it writes nothing and fails if the file would change.
  *
  * Coordinates, shared with src/cpu/energy.ts and src/wgsl/energy.wgsl.ts. Tried and measured against the quadrature at
@@ -408,12 +408,13 @@ const note = '// Made by scripts/tables.mjs; do not edit.\n';
 
 // The sizes stand apart from the numbers: whoever wants only them does not get 24 kB of text.
 const sources = {
-  'grid.ts': `${note}
-/** How many angles, roughnesses and slices of indices the tables hold. */
-export const TABLE_LAYOUT = { ${Object.entries(LAYOUT)
-    .map(([name, value]) => `${name}: ${value}`)
-    .join(', ')} } as const;
-`,
+  // Written as reals, so that the shaders' quotients are real.
+  'grid.wesl': `${note}
+// How many angles, roughnesses and slices of indices the tables hold.
+
+${Object.entries(LAYOUT)
+  .map(([name, value]) => `const OPENPBR_TABLE_${name.replace(/[A-Z]/g, '_$&').toUpperCase()} = ${value}.0;\n`)
+  .join('')}`,
   'encoded.ts': `${note}
 // prettier-ignore
 export const ENCODED_DIELECTRIC = ${encode(dielectric(), STEP)};

@@ -11,7 +11,7 @@ import {
 } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
 import { requiredFeatures } from '../src/wgsl/index';
-import { openpbrFilm } from '../src/wgsl/film.wgsl';
+import openpbrFilm from '../src/wgsl/film.wesl';
 import { direction } from './integrate';
 import { uniform } from './random';
 import { primitives, type Triple } from './oracle/index';

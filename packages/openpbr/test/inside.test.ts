@@ -6,7 +6,7 @@ import { insideEnergy } from '../src/cpu/inside';
 import { resolveParameters } from '../src/parameters/index';
 import { OPENPBR_TABLES } from '../src/tables/index';
 import { requiredFeatures } from '../src/wgsl/index';
-import { openpbrInside } from '../src/wgsl/inside.wgsl';
+import openpbrInside from '../src/wgsl/inside.wesl';
 import { direction, furnaceBelowOne } from './integrate';
 import { single, uniform } from './random';
 import { sphereFurnace } from './sphere';

@@ -6,7 +6,7 @@ import { evalBsdf, ggxAlpha, prepareBsdf, sampleBsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
 import { stretchedEnergy } from '../src/cpu/stretched';
 import { requiredFeatures } from '../src/wgsl/index';
-import { openpbrStretched } from '../src/wgsl/stretched.wgsl';
+import openpbrStretched from '../src/wgsl/stretched.wesl';
 import { direction, whiteDielectric, whiteMetal } from './integrate';
 import { single, uniform, upperDirection } from './random';
 

@@ -3,7 +3,8 @@ import { energyBounce, energyShare, energyTotalLost } from './energy';
 import { ggxAlpha, viewRoughness, type Slopes } from './ggx';
 import { insideEnergy } from './inside';
 import { stretchedEnergy } from './stretched';
-import { INNER_SUM_NODES, INSIDE_NEAR } from '../tables/layout';
+import { OPENPBR_INSIDE_NEAR } from '../tables/constants.wesl';
+import { OPENPBR_INNER_SUM_NODES } from '../tables/inner_nodes.wesl';
 
 /** What an interface does with the light towards a viewer; see the WGSL struct `OpenPbrDielectric`. */
 export interface InterfaceEnergy {
@@ -20,7 +21,7 @@ export interface InterfaceEnergy {
  * 1. For what is clear alone the tables do, since nothing but the choice of samples hangs on its share.
  */
 export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean =>
-  epsilon < 0 && (epsilon > -INSIDE_NEAR || isOverOpaque(p));
+  epsilon < 0 && (epsilon > -OPENPBR_INSIDE_NEAR || isOverOpaque(p));
 
 /** Whether something opaque lies below the interface. */
 export const isOverOpaque = (p: OpenPbrParameters): boolean =>
@@ -32,7 +33,7 @@ function sumShareMean(epsilon: number, roughness: number): number {
   const critical = Math.sqrt(Math.max(1 - eta * eta, 0));
   const alpha = ggxAlpha(roughness, 0);
   let through = 0;
-  for (const [x, weight] of INNER_SUM_NODES) {
+  for (const [x, weight] of OPENPBR_INNER_SUM_NODES) {
     for (const [mu, step] of [
       [critical * (1 - x * x), critical],
       [critical + (1 - critical) * x * x, 1 - critical],

@@ -1,13 +1,12 @@
 import type { OpenPbrVector } from '../parameters/index';
+import { OPENPBR_MIN_ROUGHNESS, OPENPBR_STRETCHED_FLATS } from '../tables/constants.wesl';
 import {
-  STRETCHED_FLATS,
   STRETCHED_VIEWS,
   TABLE_ANGLES,
   TABLE_BLOCKS,
   TABLE_CONDUCTOR,
   TABLE_DEPTH,
   TABLE_HEIGHT_2D,
-  TABLE_MIN_ROUGHNESS,
   TABLE_ROUGHNESSES,
 } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
@@ -32,7 +31,7 @@ export function tableLookup(table: OpenPbrTable, coords: readonly [number, numbe
   return plane(z0) * (1 - fz) + plane(z1) * fz;
 }
 
-const MIN_ROOT = Math.sqrt(TABLE_MIN_ROUGHNESS);
+const MIN_ROOT = Math.sqrt(OPENPBR_MIN_ROUGHNESS);
 const texel = (u: number, first: number, count: number, size: number): number => (u * (count - 1) + 0.5 + first) / size;
 const roughnessAxis = (r: number, count: number, size = count): number =>
   texel(clamp((Math.sqrt(r) - MIN_ROOT) / (1 - MIN_ROOT), 0, 1), 0, count, size);
@@ -44,7 +43,7 @@ const totalSlice = (epsilon: number): number =>
     : slice('innerTotal', epsilon);
 /** In the blocks of totals. */
 const totalRoughness = (r: number): number =>
-  texel(clamp((r - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1), 0, TABLE_ANGLES + 1, TABLE_ANGLES + 1);
+  texel(clamp((r - OPENPBR_MIN_ROUGHNESS) / (1 - OPENPBR_MIN_ROUGHNESS), 0, 1), 0, TABLE_ANGLES + 1, TABLE_ANGLES + 1);
 const angleAxis = (t: number): number => texel(t, 0, TABLE_ANGLES, TABLE_ANGLES + 1);
 
 function spread(r: number, mu: number): number {
@@ -69,7 +68,7 @@ export function fresnelMean(epsilon: number): number {
 
 /** Energy that a perfect mirror of the given roughness loses by single scattering; twin of `openpbr_energy_lost`. */
 export function energyLost(roughness: number, mu: number): number {
-  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  const r = Math.max(roughness, OPENPBR_MIN_ROUGHNESS);
   return tableLookup(OPENPBR_TABLES.conductor, [
     texel(spread(r, mu), 0, TABLE_CONDUCTOR, TABLE_CONDUCTOR + 1),
     roughnessAxis(r, TABLE_CONDUCTOR, TABLE_HEIGHT_2D),
@@ -78,7 +77,7 @@ export function energyLost(roughness: number, mu: number): number {
 
 /** The cosine-weighted mean of {@link energyLost} over all directions; twin of `openpbr_energy_lost_mean`. */
 export function energyLostMean(roughness: number): number {
-  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  const r = Math.max(roughness, OPENPBR_MIN_ROUGHNESS);
   return (
     r ** 3 *
     tableLookup(OPENPBR_TABLES.conductor, [
@@ -96,10 +95,10 @@ export function energyLostMean(roughness: number): number {
  * @param along Where the slope along the view lies, as a coordinate.
  */
 function stretchedMore(alpha: Slopes, roughness: number, x: number, along: number): number {
-  const flat = (1 - alpha[1] / alpha[0]) * STRETCHED_FLATS;
-  const block = Math.min(Math.floor(flat), STRETCHED_FLATS - 1);
+  const flat = (1 - alpha[1] / alpha[0]) * OPENPBR_STRETCHED_FLATS;
+  const block = Math.min(Math.floor(flat), OPENPBR_STRETCHED_FLATS - 1);
   const z = texel(
-    clamp((roughness - TABLE_MIN_ROUGHNESS) / (1 - TABLE_MIN_ROUGHNESS), 0, 1),
+    clamp((roughness - OPENPBR_MIN_ROUGHNESS) / (1 - OPENPBR_MIN_ROUGHNESS), 0, 1),
     TABLE_BLOCKS.stretched[0],
     TABLE_BLOCKS.stretched[1],
     TABLE_DEPTH,
@@ -129,7 +128,7 @@ export function mirrorLost(alpha: Slopes, roughness: number, w: OpenPbrVector, m
   );
   const along = (alpha[1] * (alpha[0] - slope)) / (slope * (alpha[0] - alpha[1]));
   // Angles crowd towards the normal.
-  const t = 1 - Math.max(1 - spread(Math.max(roughness, TABLE_MIN_ROUGHNESS), cosine), 0) ** 0.75;
+  const t = 1 - Math.max(1 - spread(Math.max(roughness, OPENPBR_MIN_ROUGHNESS), cosine), 0) ** 0.75;
   return Math.max(lost - stretchedMore(alpha, roughness, angleAxis(t), along), 0);
 }
 
@@ -147,7 +146,7 @@ export function mirrorLostMean(alpha: Slopes, roughness: number): number {
  */
 export function energyShare(epsilon: number, roughness: number, mu: number): number {
   if (epsilon === 0) return 0;
-  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  const r = Math.max(roughness, OPENPBR_MIN_ROUGHNESS);
   const eta = (1 + epsilon) / (1 - epsilon);
   const y = roughnessAxis(r, TABLE_ROUGHNESSES);
   if (epsilon > 0) {
@@ -171,7 +170,7 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
  */
 export function energyShareMean(epsilon: number, roughness: number): number {
   if (epsilon <= 0) return 0;
-  const y = roughnessAxis(Math.max(roughness, TABLE_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
+  const y = roughnessAxis(Math.max(roughness, OPENPBR_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
   return (
     1 -
     Math.min(
@@ -224,7 +223,7 @@ export function energyBounce(epsilon: number, roughness: number): number {
 
 /** Energy that single scattering by an interface neither reflects nor refracts; twin of `openpbr_energy_total_lost`. */
 export function energyTotalLost(epsilon: number, roughness: number, mu: number): number {
-  const r = Math.max(roughness, TABLE_MIN_ROUGHNESS);
+  const r = Math.max(roughness, OPENPBR_MIN_ROUGHNESS);
   const t =
     epsilon >= 0
       ? 1 - Math.max(1 - spread(r, mu), 0) ** 0.6

@@ -1,5 +1,9 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { STRETCHED_AROUND, STRETCHED_HEIGHTS, STRETCHED_MIRRORS } from '../tables/layout';
+import {
+  OPENPBR_STRETCHED_AROUND,
+  OPENPBR_STRETCHED_HEIGHTS,
+  OPENPBR_STRETCHED_MIRRORS,
+} from '../tables/stretched_facets.wesl';
 import { seenFacets } from './conic';
 import { fresnelDielectric } from './fresnel';
 import { ggxSample, type Slopes } from './ggx';
@@ -25,17 +29,17 @@ function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const reflectance = (h: OpenPbrVector): number => fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
   let reflected = 0;
   sum(
-    STRETCHED_MIRRORS,
+    OPENPBR_STRETCHED_MIRRORS,
     upwards,
     upwards,
     (weight, h) => (reflected += weight * reflectance(h) * Math.max(facetSeen(eta, alpha, wo, h)[0], 0)),
   );
   const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
   let through = 0;
-  STRETCHED_HEIGHTS.forEach(([height, weight], k) => {
-    for (let i = 0; i < STRETCHED_AROUND; i++) {
-      const h = ggxSample(alpha, wo, [turn + (i + 0.382 * k) / STRETCHED_AROUND, height]);
-      through += (weight / STRETCHED_AROUND) * (1 - reflectance(h)) * facetSeen(eta, alpha, wo, h)[1];
+  OPENPBR_STRETCHED_HEIGHTS.forEach(([height, weight], k) => {
+    for (let i = 0; i < OPENPBR_STRETCHED_AROUND; i++) {
+      const h = ggxSample(alpha, wo, [turn + (i + 0.382 * k) / OPENPBR_STRETCHED_AROUND, height]);
+      through += weight * (1 - reflectance(h)) * facetSeen(eta, alpha, wo, h)[1];
     }
   });
   return [reflected, through];

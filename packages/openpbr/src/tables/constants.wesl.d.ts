@@ -1,11 +1,11 @@
 import type { WgslModule } from '@glanz/wgsl';
 
-/** A thin film's bands of the visible spectrum, of Lorentzian shape over wavenumbers: their middles, in 1/256 µm⁻¹. */
-export const OPENPBR_FILM_BANDS: readonly number[];
-/** Coherence is lost by e^(−width · optical path in µm). */
-export const OPENPBR_FILM_WIDTH: number;
-/** What each band counts for red, green and blue; each channel sums to 1. */
-export const OPENPBR_FILM_WEIGHTS: readonly (readonly [number, number, number])[];
+/** The tables' first roughness, which is that of the smallest slope. */
+export const OPENPBR_MIN_ROUGHNESS: number;
+/** The block of stretched mirrors holds the anisotropies 1/n, 2/n, … 1. */
+export const OPENPBR_STRETCHED_FLATS: number;
+/** Nearer to index 1 than this ε the tables are too coarse for what is seen from inside: it is summed over facets. */
+export const OPENPBR_INSIDE_NEAR: number;
 
 declare const module: WgslModule;
 export default module;

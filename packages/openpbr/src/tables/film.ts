@@ -1,4 +1,4 @@
-import { OPENPBR_FILM_BANDS, OPENPBR_FILM_WEIGHTS, OPENPBR_FILM_WIDTH } from './constants.wesl';
+import { OPENPBR_FILM_BANDS, OPENPBR_FILM_WEIGHTS, OPENPBR_FILM_WIDTH } from './film_bands.wesl';
 
 /** The visible spectrum as a sum of bands of Lorentzian shape, over wavenumbers. */
 export interface FilmBands {

@@ -1,10 +1,11 @@
 import { gated, wgslModule } from '@glanz/wgsl';
-import { openpbrEmission, openpbrOpacity } from './emission.wgsl';
+import openpbrEmission from './emission.wesl';
+import openpbrOpacity from './opacity.wesl';
 import openpbrMedium from './medium.wesl';
 import openpbrPhase from './phase.wesl';
 import { openpbrSample } from './sample.wgsl';
 import { openpbrScatter } from './scatter.wgsl';
-import { openpbrSubsurface } from './subsurface.wgsl';
+import openpbrSubsurface from './subsurface.wesl';
 
 /**
  * The whole surface. Directions are unit vectors in the local frame (+z shading normal, +x tangent), away from the

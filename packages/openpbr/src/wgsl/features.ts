@@ -1,6 +1,6 @@
 import type { OpenPbrParameterName, OpenPbrParameters } from '../parameters/index';
 import { resolveParameters } from '../parameters/index';
-import { INSIDE_NEAR } from '../tables/layout';
+import { OPENPBR_INSIDE_NEAR } from '../tables/constants.wesl';
 
 /**
  * The composer's flags that the modules of this package ask for. A lobe whose flag is false is not in the text,
@@ -113,7 +113,7 @@ export function requiredFeatures(
   const step = (p: OpenPbrParameters, outer: number) =>
     (Math.abs(p.specular_ior - outer) / (p.specular_ior + outer)) * Math.sqrt(p.specular_weight);
   const isNear = (p: OpenPbrParameters, outer: number) =>
-    p.specular_ior !== outer && (step(p, outer) < INSIDE_NEAR + 1e-4 || isTextured('specular_weight'));
+    p.specular_ior !== outer && (step(p, outer) < OPENPBR_INSIDE_NEAR + 1e-4 || isTextured('specular_weight'));
   const sums =
     isTextured('specular_ior') ||
     isTextured('coat_ior') ||

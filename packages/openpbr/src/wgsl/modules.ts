@@ -1,12 +1,22 @@
 // The modules in WESL that are published, with their types and documentation.
 import type { WgslModule } from '@glanz/wgsl';
+import coat from './coat.wesl';
 import cosine from './cosine.wesl';
+import dielectric from './dielectric.wesl';
+import emission from './emission.wesl';
+import energy from './energy.wesl';
 import eon from './eon.wesl';
-import ggx from './ggx.wesl';
+import film from './film.wesl';
 import fresnelDielectric from './fresnel_dielectric.wesl';
 import fresnelMetal from './fresnel_metal.wesl';
+import fuzz from './fuzz.wesl';
+import ggx from './ggx.wesl';
 import medium from './medium.wesl';
+import metal from './metal.wesl';
+import opacity from './opacity.wesl';
 import phase from './phase.wesl';
+import subsurface from './subsurface.wesl';
+import transmission from './transmission.wesl';
 
 /**
  * The GGX microfacet distribution with height-correlated Smith masking (Heitz 2014). `openpbr_alpha` maps roughness and
@@ -66,3 +76,100 @@ export const openpbrCosine: WgslModule = cosine;
  * albedo of its single-scattering part is the paper's polynomial.
  */
 export const openpbrEon: WgslModule = eon;
+
+/**
+ * The metal lobe's reflectance: F82 tint times specular_weight, not above 1. Light that single scattering loses comes
+ * back in all directions, coloured by its further bounces (Kulla and Conty 2017): a lobe of its own, smooth and
+ * reciprocal, sampled with the diffuse one; exact in energy for white metal.
+ */
+export const openpbrMetal: WgslModule = metal;
+
+/**
+ * The dielectric interface of the base: specular_weight changes its index of refraction, and with it everything else.
+ * `openpbr_dielectric_epsilon` is (η - 1)/(η + 1) of the changed index: its square is the reflectance at normal
+ * incidence, so specular_weight simply scales that square. The reflection's tint leaves the energy balance alone.
+ *
+ * What single scattering loses has bounced among the facets and forgotten where it came from: it leaves in all
+ * directions, a part of it upwards (openpbr_energy_bounce), the rest downwards. The lobes of single scattering are the
+ * textbook's.
+ */
+export const openpbrDielectric: WgslModule = dielectric;
+
+/**
+ * Light through the dielectric base. Directions on the far side have z < 0.
+ *
+ * - A solid: refraction by GGX facets (Walter et al. 2007), the same facets and the same Fresnel factor as the
+ *   reflection; masking is separable. f has no factor of η²: reflection and transmission of a clear interface add up to
+ *   1 from either side, and f(o, i) = η² f(i, o).
+ * - A thin wall: two parallel faces, with all reflections between them: smooth, it reflects 2R / (1 + R) and lets the
+ *   rest through undeflected. Rough, that share is taken at the viewer's angle for the lobe as a whole, which is the
+ *   GGX reflection, and for the light let through its mirror image, narrowed, since two refractions mostly undo each
+ *   other.
+ *
+ * `transmission_color` tints once a crossing where `transmission_depth` is 0, and along the path through a thin wall.
+ */
+export const openpbrTransmission: WgslModule = transmission;
+
+/**
+ * What lies below a translucent surface: `openpbr_subsurface_medium(p) -> OpenPbrMedium`, the medium to walk in once a
+ * sample has entered it (`OpenPbrSample.subsurface`), through the same rough interface as into glass.
+ *
+ * `subsurface_color` is what comes back of the light that got in. The single-scattering albedo that does so is van de
+ * Hulst's for a half space (d'Eon, A Hitchhiker's Guide to Multiple Scattering), of the colour corrected for what the
+ * interface reflects back inside (Saunderson 1942).
+ *
+ * A thin wall has no inside: its subsurface reflects and transmits like paper, in parts given by the anisotropy.
+ */
+export const openpbrSubsurface: WgslModule = subsurface;
+
+/**
+ * A thin film on the base, below the coat. Waves reflected by its two faces interfere; Airy's sum, with all its orders
+ * and unpolarised, takes the place of the Fresnel factor, by the coverage. Below it lies the dielectric, or metal of a
+ * complex index by its reflectance and edge tint (Gulbrandsen 2014).
+ *
+ * For a band of Lorentzian shape over wavenumbers the spectrum's integral is Airy's sum with a reflection that fades
+ * with the path, in closed form: eight such bands stand for the visible spectrum, and give red, green and blue
+ * (`FILM_BANDS`), with no aliasing however thick the film. From inside, light beyond the critical angle is reflected
+ * whatever the film.
+ */
+export const openpbrFilm: WgslModule = film;
+
+/**
+ * Fuzz: a layer of fibres over everything else (Zeltner, Burley and Chiang 2022). Its reflection is a linearly
+ * transformed cosine towards the viewer, of two numbers and an energy from the two-dimensional table
+ * (scripts/sheen.mjs); what lies below gets what it does not reflect, in grey. It depends on the viewer, and is not
+ * reciprocal.
+ */
+export const openpbrFuzz: WgslModule = fuzz;
+
+/**
+ * The coat: a clear or tinted dielectric layer over everything else, in the frame of the base or, with
+ * OPENPBR_COAT_FRAME, in one of its own, given by geometry_coat_normal and geometry_coat_tangent in the frame of the
+ * base. Its reflection is that of an interface (`openpbrDielectric`); what lies below is the base with other parameters
+ * (`openpbr_coat_base`), times `openpbr_coat_pass`. Formulas of the specification, with these choices where it leaves
+ * one:
+ *
+ * - The base becomes rougher as proposed for the specification's next version: refraction widens the base's highlight,
+ *   a rough coat blurs it. It is never made smoother.
+ * - Darkening by reflections inside the coat takes the roughness of the base as seen through the coat, and of a rough
+ *   coat the facets that are typically seen; the coat's colour does not count at every bounce, only once.
+ * - What the coat lets through is 1 less its albedo towards the viewer: no energy is made, but the whole is not
+ *   reciprocal.
+ */
+export const openpbrCoat: WgslModule = coat;
+
+/**
+ * Directional albedos of GGX interfaces, read from the energy tables through the host's accessors
+ * (`openpbr_table_dielectric`, `openpbr_table_conductor`). A dielectric is given by `epsilon` = (η - 1)/(η + 1), the
+ * signed root of its reflectance at normal incidence. The coordinates are explained in scripts/tables.mjs.
+ */
+export const openpbrEnergy: WgslModule = energy;
+
+/**
+ * `openpbr_emission(p, wo)`: radiance that leaves towards `wo`: the same in all directions of the upper side, but for
+ * what a coat and fuzz keep back.
+ */
+export const openpbrEmission: WgslModule = emission;
+
+/** `openpbr_opacity(p)`: the part of the light that meets the surface at all; the rest goes straight through. */
+export const openpbrOpacity: WgslModule = opacity;

@@ -1,9 +1,9 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import openpbrEon from './eon.wesl';
 import openpbrGgx from './ggx.wesl';
-import { openpbrInterfaces } from './interfaces.wgsl';
+import openpbrInterfaces from './interfaces.wesl';
 import { openPbrStruct } from './record';
-import { openpbrSurface } from './surface.wgsl';
+import openpbrSurface from './surface.wesl';
 
 /**
  * `openpbr_prepare` and, with OPENPBR_TRANSMISSION, `openpbr_prepare_side`: weights of the lobes, albedos, and the

@@ -1,7 +1,7 @@
 import { gated, wgslModule } from '@glanz/wgsl';
 import openpbrEon from './eon.wesl';
 import openpbrCosine from './cosine.wesl';
-import { openpbrFacet } from './facet.wgsl';
+import openpbrFacet from './facet.wesl';
 import { openpbrPrepare } from './prepare.wgsl';
 
 /**
