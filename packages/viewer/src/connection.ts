@@ -4,7 +4,7 @@ import { Display } from './display';
 import { destroyed, isAbort, ViewerError } from './errors';
 import { Losses } from './losses';
 
-/** What a connection tells its engine. */
+/** What a connection reports to its engine. */
 export interface ConnectionEvents {
   /** There is no device, but it is asked for again for about two seconds. */
   readonly missing: (error: unknown) => void;
@@ -142,8 +142,7 @@ export class Connection {
   }
 
   /**
-   * The GPU's process may fall over before there is a device that could be lost; another one comes up then, as after a
-   * loss.
+   * The GPU process may crash before there is a device that could be lost; it is started again then, as after a loss.
    */
   async #first(): Promise<void> {
     try {

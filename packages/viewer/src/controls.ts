@@ -1,4 +1,4 @@
-/** What a user's hands ask of a camera. */
+/** Camera commands of pointers and keys. */
 export interface CameraCommands {
   /** Radians, to the right and up around the model. */
   orbit(yaw: number, pitch: number): void;
@@ -14,7 +14,7 @@ export interface CameraCommands {
   focus(x: number, y: number): void;
 }
 
-/** Which movements hands may make. */
+/** Which movements users may make. */
 export interface ControlOptions {
   /** Drag, one finger, arrows. Default true. */
   readonly orbit?: boolean;

@@ -44,7 +44,7 @@ export class Emitter<Events extends object> {
       try {
         (listener as (detail: Events[K]) => void)(detail);
       } catch (error) {
-        // The loop must go on; the page's own handlers hear of it.
+        // The loop must continue; the page's own error handlers receive it.
         queueMicrotask(() => {
           throw error;
         });

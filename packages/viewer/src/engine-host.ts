@@ -3,16 +3,16 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import type { ViewerState } from './events';
 
-/** What an `Engine` asks of the application around it, and tells it. */
+/** What an `Engine` requests from its application, and reports to it. */
 export interface EngineHost {
-  /** Lets the camera go on by so many seconds; whether it has moved. */
+  /** Advances the camera by so many seconds; returns whether it has moved. */
   readonly step: (seconds: number) => boolean;
   /** Whether the camera is on its way, or about to be. */
   readonly moving: () => boolean;
   /** The camera for an image of this width over height. */
   readonly camera: (aspect: number) => Camera;
   readonly state: (state: ViewerState) => void;
-  /** The image has more samples; those of previews are not told. */
+  /** The image has more samples; those of previews are not reported. */
   readonly sample: (progress: RenderProgress) => void;
   /** The image has all it was asked for, so many milliseconds after the last change. */
   readonly converged: (samples: number, milliseconds: number) => void;
@@ -46,7 +46,7 @@ export interface EngineSettings extends ToneMapOptions {
   samples: number;
   /** Stop where this relative noise is reached. With a change goes `restart()`. */
   noise: number | undefined;
-  /** Most edges of a path. With a change goes `touch()`. */
+  /** Maximum number of edges of a path. With a change goes `touch()`. */
   maxDepth: number;
   /** What is behind the model. With a change goes an edit by `PathTracer.setBackground()`. */
   background: 'environment' | 'transparent';
@@ -54,7 +54,7 @@ export interface EngineSettings extends ToneMapOptions {
   maxSubmitMs: number;
   /** Milliseconds without a movement after which the image is refined. */
   readonly settleMs: number;
-  /** Most edges of a path in previews that are smaller than the image. */
+  /** Maximum number of edges of a path in previews that are smaller than the image. */
   readonly previewDepth: number;
   /** More for the path tracers; those of a {@link Take} go over them. */
   readonly tracer: Partial<PathTracerOptions>;
@@ -65,7 +65,7 @@ export interface EngineSettings extends ToneMapOptions {
    * time.
    */
   keepSamples?: boolean | undefined;
-  /** Whether the first device warms up until there is a scene. Default: unless the CPU imitates it. */
+  /** Whether the first device warms up until there is a scene. Default: unless the adapter is software. */
   readonly warmUp?: boolean | undefined;
 }
 

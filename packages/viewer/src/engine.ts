@@ -106,7 +106,7 @@ export class Engine {
         },
         recovering: () => {
           this.#fresh = false;
-          this.#tell('recovering');
+          this.#setState('recovering');
           this.#stir();
         },
         back: () => this.#rebuild(),
@@ -225,7 +225,7 @@ export class Engine {
   }
 
   /**
-   * Shows another scene. Until it is ready the former one stays, and it stays for good where this fails.
+   * Shows another scene. Until it is ready, and where this fails, the former one stays.
    *
    * @param source Asked whenever a tracer is made: now without one, and after a loss of the device with the one that
    * was lost.
@@ -333,7 +333,7 @@ export class Engine {
     this.#connection.destroy();
     this.#hierarchies?.destroy();
     this.#tracer = this.#tracerDevice = undefined;
-    this.#tell('destroyed');
+    this.#setState('destroyed');
   }
 
   get #builder(): RememberingHierarchies | undefined {
@@ -438,7 +438,7 @@ export class Engine {
 
   #fail(error: unknown): void {
     this.#failed = true;
-    this.#tell('failed');
+    this.#setState('failed');
     this.#host.error(error, () => this.retry());
     this.#stir();
   }
@@ -461,9 +461,9 @@ export class Engine {
     while (!this.#destroyed) {
       const idle = this.#idleState();
       if (idle || !this.#tracer) {
-        // Before the state is told: who hears it may have work at once.
+        // Before the state is emitted: a listener may request work at once.
         const woken = new Promise<void>((resolve) => (this.#wake = resolve));
-        this.#tell(idle ?? 'empty');
+        this.#setState(idle ?? 'empty');
         const retry =
           idle === 'done' && this.#smaller
             ? setTimeout(() => ((this.#growing = true), this.#stir()), this.#films.retryMs)
@@ -480,7 +480,7 @@ export class Engine {
         else if (this.#growing) await this.#grow(tracer);
         else await this.#refine(tracer);
       } catch (error) {
-        // Told apart by what follows: a loss is handled where the device announces it.
+        // A loss of the device shows in what follows; it is handled where the device reports it.
         await soon();
         await soon();
         this.#failUnlessLost(error, tracer);
@@ -504,13 +504,13 @@ export class Engine {
     return this.#dirtyCamera || this.#edits.size > 0 || this.#host.moving() || performance.now() < this.#settle;
   }
 
-  /** An image that is as small as it must be to keep up with hands. */
+  /** An image that is as small as it must be to keep up with the controls. */
   async #previewFrame(tracer: PathTracer): Promise<void> {
     // In step with the screen where the GPU keeps up; the first frame, and those of a slow GPU, do not wait for it as
     // well.
     await (performance.now() - this.#lastPreview < SCREEN_MS ? nextFrame() : soon());
     if (tracer !== this.#tracer || this.#destroyed || !this.#visibility.visible) return;
-    this.#tell('moving');
+    this.#setState('moving');
     const now = (this.#lastPreview = performance.now());
     const stepped = this.#host.step(Math.max(0, now - this.#lastStep) / 1000);
     this.#lastStep = now;
@@ -558,7 +558,7 @@ export class Engine {
   /** The image in full, until it is done or something moves. */
   async #refine(tracer: PathTracer): Promise<void> {
     const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
-    this.#tell('rendering');
+    this.#setState('rendering');
     const full = this.#full;
     if (this.#fresh && !sameSize([tracer.width, tracer.height], full))
       void this.#connection.display?.keep(
@@ -656,7 +656,7 @@ export class Engine {
     this.#wake();
   }
 
-  #tell(state: ViewerState): void {
+  #setState(state: ViewerState): void {
     if (state === this.#state || (this.#destroyed && state !== 'destroyed')) return;
     this.#state = state;
     this.#host.state(state);

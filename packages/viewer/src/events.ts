@@ -14,11 +14,11 @@ export type ViewerState =
 /** Stages of a load, in their order. */
 export type LoadStage = 'read' | 'decode' | 'images' | 'bvh' | 'upload' | 'compile';
 
-/** What a {@link Viewer} tells, by the name of the event. */
+/** Events of a {@link Viewer}, by name. */
 export interface ViewerEvents {
   /** A model is ready to be shown. */
   load: { readonly scene: Scene; /** Since `load()` was called. */ readonly milliseconds: number };
-  /** A load goes on. `done`: share of the stage; `total`: estimated share of the whole; both 0..1. */
+  /** A load progresses. `done`: share of the stage; `total`: estimated share of the whole; both 0..1. */
   progress: { readonly stage: LoadStage; readonly done: number; readonly total: number };
   /**
    * Something failed. `code` is that of a `GlanzError`, or `unexpected`. `retry` is there where trying again makes
@@ -43,7 +43,7 @@ export interface ViewerEvents {
     readonly samples: number;
     /** Since the view or the scene last changed. */ readonly milliseconds: number;
   };
-  /** The view has moved. `source`: by a hand, by a call, or by `autoRotate`. */
+  /** The view has moved. `source`: by the user, by a call, or by `autoRotate`. */
   'camera-change': { readonly camera: Camera; readonly orbit: Orbit; readonly source: CameraChangeSource };
   /** The GPU went away; the viewer asks for it again by itself. */
   'device-lost': { readonly reason: string };

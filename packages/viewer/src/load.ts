@@ -9,7 +9,7 @@ import { isAbort, ViewerError } from './errors';
 export type ModelSource = string | URL | Blob | readonly File[] | FileList | ReadonlyMap<string, Blob> | Scene;
 
 /**
- * Surroundings. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or
+ * Environment. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or
  * a file of a Radiance HDR or OpenEXR image; or data.
  */
 export type EnvironmentSource = 'scene' | 'studio' | 'none' | URL | Blob | Environment | (string & {});
@@ -60,7 +60,7 @@ function filesOf(source: Blob | readonly File[] | FileList | ReadonlyMap<string,
 }
 
 /**
- * The model and the surroundings among files: of several documents the one nearest to the top, as asset folders keep
+ * The model and the environment among files: of several documents the one nearest to the top, as asset folders keep
  * variants below.
  */
 export function sortFiles(files: ReadonlyMap<string, Blob>): {
@@ -124,7 +124,7 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
 }
 
 /**
- * Reads surroundings; `scene` and `none` give `undefined`.
+ * Reads an environment; `scene` and `none` give `undefined`.
  *
  * @throws {ViewerError} `viewer/environment` for an address that cannot be fetched; {ImageError} for an image that
  * cannot be read.
@@ -177,11 +177,11 @@ type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; re
 
 async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<Scene> {
   const { signal, onProgress, decoders, createWorker, compressedFormats } = options;
-  const told = { signal, onProgress };
+  const common = { signal, onProgress };
   try {
     const { loadGltfInWorker } = await import('@glanz/gltf/workers');
     return await loadGltfInWorker(source, {
-      ...told,
+      ...common,
       createWorker,
       ...(createWorker && compressedFormats ? { compressedFormats: await compressedFormats() } : {}),
     });
@@ -195,7 +195,7 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
   signal?.throwIfAborted();
   const { loadGltf } = await import('./gltf');
   const meshopt = async () => (await import('meshoptimizer/decoder')).MeshoptDecoder;
-  return loadGltf(source, { ...told, compressedFormats, decoders: { meshopt, ...decoders } });
+  return loadGltf(source, { ...common, compressedFormats, decoders: { meshopt, ...decoders } });
 }
 
 async function readOther(

@@ -1,7 +1,7 @@
 import { ViewerError } from './errors';
 
 const WINDOW_MS = 60_000;
-const MOST = 3;
+const MAX_LOSSES = 3;
 
 /** Counts lost devices, so that a GPU that always fails is not asked for ever. */
 export class Losses {
@@ -14,7 +14,7 @@ export class Losses {
    */
   async next(now = performance.now()): Promise<void> {
     this.#times = [...this.#times.filter((time) => now - time < WINDOW_MS), now];
-    if (this.#times.length > MOST)
+    if (this.#times.length > MAX_LOSSES)
       throw new ViewerError(
         'viewer/device-lost',
         'The GPU was lost again and again: close other programs that use it, or show a smaller model or image.',

@@ -45,24 +45,24 @@ export interface ViewerOptions {
   readonly maxDepth?: number;
   /** Image pixels per CSS pixel. Default: the screen's own, at most 2. Changeable. */
   readonly pixelRatio?: number;
-  /** Pixels of the image at most; beyond, it is enlarged. Default 4,194,304. */
+  /** Maximum number of pixels of the image; beyond, it is enlarged. Default 4,194,304. */
   readonly maxPixels?: number;
   /**
-   * Surroundings. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. Where it cannot be
+   * Environment. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. Where it cannot be
    * fetched or read, a studio lights the model, and the `warning` event says why.
    */
   readonly environment?: EnvironmentSource;
-  /** Multiplies the surroundings. Default 1. Changeable. */
+  /** Multiplies the environment. Default 1. Changeable. */
   readonly environmentIntensity?: number;
-  /** Turns the surroundings about +Y, radians. Default 0. Changeable. */
+  /** Rotates the environment about +Y, radians. Default 0. Changeable. */
   readonly environmentRotation?: number;
-  /** What is seen behind the model: the surroundings, or the page. Default `environment`. Changeable. */
+  /** What is seen behind the model: the environment, or the page. Default `environment`. Changeable. */
   readonly background?: 'environment' | 'transparent';
   /** Stops (EV). Default 0. Changeable. */
   readonly exposure?: number;
   /** Default `neutral`. Changeable. */
   readonly toneMap?: ToneMap;
-  /** Look of a model that has several, by name. Default: its own. Changed by `setVariant()`. */
+  /** Variant of the model, by name. Default: its own materials. Changed by `setVariant()`. */
   readonly variant?: string;
   /**
    * The first view of a model: `auto` (default): its own first camera, or a view that frames it; `frame`: the latter
@@ -70,9 +70,9 @@ export interface ViewerOptions {
    * width over height.
    */
   readonly camera?: 'auto' | 'frame' | number | Camera | ((scene: Scene, aspect: number) => Camera) | (string & {});
-  /** How far hands and calls may move the camera. Default: no limits. Changeable. */
+  /** How far users and calls may move the camera. Default: no limits. Changeable. */
   readonly orbitLimits?: OrbitLimits;
-  /** Hands on the canvas: all, none, or some. Default true. Changeable. */
+  /** Controls on the canvas: all, none, or some. Default true. Changeable. */
   readonly controls?: boolean | ControlOptions;
   /** Seconds in which 63 % of a movement is done. Default 0.06; 0 where the user asks for less motion. */
   readonly damping?: number;
@@ -94,7 +94,7 @@ export interface ViewerOptions {
    */
   readonly requestDevice?: () => Promise<GPUDevice>;
   /**
-   * Whether copies of the image's samples are kept in CPU memory, so that the image goes on where it was when the GPU
+   * Whether copies of the image's samples are kept in CPU memory, so that the image continues from them when the GPU
    * was lost: at doubling numbers of samples, at least three seconds apart, and when it is done; never while something
    * moves. A copy takes 64 bytes a pixel, and 32 more for each further light group; films of more than 128 MiB are not
    * copied. Default true.
@@ -102,7 +102,7 @@ export interface ViewerOptions {
   readonly keepSamples?: boolean;
   /**
    * Whether the device and the JavaScript engine do ahead, while the first model loads, what its first image would
-   * wait for: about a tenth of a second of the page's thread, in slices. Default: unless the CPU imitates the GPU.
+   * wait for: about a tenth of a second of the page's thread, in slices. Default: unless the adapter is software.
    */
   readonly warmUp?: boolean;
   /** The other options of the path tracer: filter, light groups, biased options, back-face culling and more. */
@@ -115,7 +115,7 @@ export interface ViewerOptions {
 export interface PreviewOptions {
   /** Milliseconds that a frame of it may take. Default 12, which leaves room at 60 frames a second. */
   readonly budgetMs?: number;
-  /** Most edges of a path, where the preview is smaller than the image. Default 4. */
+  /** Maximum number of edges of a path, where the preview is smaller than the image. Default 4. */
   readonly maxDepth?: number;
   /** Milliseconds without a movement after which the image is refined. Default 180. */
   readonly settleMs?: number;

@@ -15,7 +15,7 @@ export interface Orbit {
   readonly zoom?: number | undefined;
 }
 
-/** How far hands and calls may move the camera: least and most of each. What is left out is free. */
+/** How far users and calls may move the camera: minimum and maximum of each. What is left out is free. */
 export interface OrbitLimits {
   /** Radians. */
   readonly theta?: readonly [number, number];

@@ -9,7 +9,7 @@ export class Preparation {
   #control: AbortController | undefined;
   #destroyed = false;
 
-  /** @param ended Told when a tracer is there, or will not be, and none other is being made. */
+  /** @param ended Called when a tracer is ready, or has failed, and no other is being made. */
   constructor(ended: () => void) {
     this.#ended = ended;
   }
@@ -22,7 +22,7 @@ export class Preparation {
   /**
    * Does ahead, until the first tracer is asked for, what that one would pay for, see `warmUp` of the renderer.
    *
-   * @param wanted Undefined: where the GPU is one. What the CPU imitates is busy enough.
+   * @param wanted Undefined: unless the adapter is software, whose CPU is busy enough.
    */
   warmUp(device: GPUDevice, hierarchies: HierarchyBuilder, wanted: boolean | undefined): void {
     const { adapterInfo } = device as { readonly adapterInfo?: GPUAdapterInfo };

@@ -11,13 +11,13 @@ export interface PreviewPlan {
 /** Steps by which the preview shrinks. Areas about halve, so that sizes do not change for every breath of the clock. */
 export const DIVISORS = [1, 1.5, 2, 3, 4, 6, 8] as const;
 
-/** From here on the image gets too coarse to be of use: rather fewer frames a second than still fewer pixels. */
+/** Coarser images are useless: below this, the frame rate drops before the resolution does. */
 const COARSE = 4;
 /** How much longer frames of coarse previews may take. */
 const PATIENT = 2.5;
-/** Most samples of a preview's frame. */
+/** Maximum samples of a preview's frame. */
 const MOST_SAMPLES = 8;
-/** A step to a larger preview, or to more samples, is taken only where this share of the time does for it. */
+/** A step to a larger preview, or to more samples, is taken only where this share of the time suffices. */
 const CAUTION = 0.9;
 /** Frames that a size is kept before a larger one is tried. */
 const PATIENCE = 6;

@@ -1,8 +1,8 @@
 import type { Scene } from '@glanz/scene';
 
 /**
- * A scene out of a variant: instances that wear what the variant put on them get their own material back, so that the
- * variant can be put on, and taken off, again.
+ * A scene out of a variant: instances that use the variant's material get their own back, so that the
+ * variant can be applied and removed again.
  *
  * @param scene As it is in the tracer.
  * @param loaded As it came.

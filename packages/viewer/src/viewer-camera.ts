@@ -21,7 +21,7 @@ import { ViewerSettings } from './viewer-settings';
 
 const calm = () => typeof matchMedia === 'function' && matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-/** Where a {@link Viewer} looks from, and what hands do to that. */
+/** The camera of a {@link Viewer} and its controls. */
 export abstract class ViewerCamera extends ViewerSettings {
   #autoRotateDelay: number;
   #damping: number;
@@ -217,7 +217,7 @@ export abstract class ViewerCamera extends ViewerSettings {
   }
 
   /** @internal */
-  protected hands(): Pick<EngineHost, 'step' | 'moving' | 'camera'> {
+  protected cameraHost(): Pick<EngineHost, 'step' | 'moving' | 'camera'> {
     return {
       step: (seconds) => this.#step(seconds),
       moving: () => (this.#rig?.moving ?? false) || this.#turning,
@@ -238,11 +238,11 @@ export abstract class ViewerCamera extends ViewerSettings {
       if (rig.damping === 0) rig.jump();
     }
     const moved = rig.step(seconds);
-    if (moved) this.#told();
+    if (moved) this.#emitCameraChange();
     return moved;
   }
 
-  #told(): void {
+  #emitCameraChange(): void {
     const { camera, orbit } = this;
     if (camera && orbit)
       this.emit('camera-change', { camera, orbit: (this.#rig as OrbitRig).orbitNow, source: this.#cameraSource });
@@ -254,7 +254,7 @@ export abstract class ViewerCamera extends ViewerSettings {
     const rig = this.#rig;
     if (immediate && rig) {
       rig.jump();
-      this.#told();
+      this.#emitCameraChange();
     }
     this.engine.touch();
   }

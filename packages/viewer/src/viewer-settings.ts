@@ -10,7 +10,7 @@ import type { ViewerEvents, ViewerState } from './events';
 import type { EnvironmentSource } from './load';
 import type { ViewerOptions } from './options';
 import { imageSize } from './image-size';
-import { Surroundings } from './surroundings';
+import { ViewerEnvironment } from './viewer-environment';
 
 /** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`; {ToneMapError} `tonemap/unknown`. */
 function checkOptions(canvas: HTMLCanvasElement, options: ViewerOptions): void {
@@ -33,7 +33,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   /** @internal */
   protected readonly options: ViewerOptions;
   /** @internal */
-  protected readonly surroundings: Surroundings;
+  protected readonly environment: ViewerEnvironment;
   /** @internal As the model came. */
   protected loaded: Scene | undefined;
   readonly #resize: ResizeObserver;
@@ -47,7 +47,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     checkOptions(canvas, options);
     this.canvas = canvas;
     this.options = options;
-    this.surroundings = new Surroundings(
+    this.environment = new ViewerEnvironment(
       options.environment,
       options.environmentIntensity,
       options.environmentRotation,
@@ -73,7 +73,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
       },
       preview.budgetMs ?? 12,
       {
-        ...this.hands(),
+        ...this.cameraHost(),
         state: (state) => this.emit('state', { state }),
         sample: ({ samples, targetSamples, samplesPerSecond, remainingMs }) =>
           this.emit('sample', { samples, target: targetSamples, samplesPerSecond, remainingMs }),
@@ -96,7 +96,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
   }
 
   /** @internal What moves the camera. */
-  protected abstract hands(): Pick<EngineHost, 'step' | 'moving' | 'camera'>;
+  protected abstract cameraHost(): Pick<EngineHost, 'step' | 'moving' | 'camera'>;
 
   /** What it is doing. */
   get state(): ViewerState {
@@ -139,7 +139,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     const lighting = (this.#lighting = new AbortController());
     const signal = options.signal ? AbortSignal.any([options.signal, lighting.signal]) : lighting.signal;
     try {
-      await untilAborted(this.surroundings.change(source, this.loaded, signal), signal);
+      await untilAborted(this.environment.change(source, this.loaded, signal), signal);
     } finally {
       if (this.#lighting === lighting) this.#lighting = undefined;
     }
@@ -148,23 +148,23 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
 
   /** See {@link ViewerOptions.environmentIntensity}. */
   get environmentIntensity(): number {
-    return this.surroundings.intensity;
+    return this.environment.intensity;
   }
 
   set environmentIntensity(intensity: number) {
-    if (checkedSetting('environmentIntensity', intensity) === this.surroundings.intensity) return;
-    this.surroundings.adjust({ intensity }, this.scene !== undefined);
+    if (checkedSetting('environmentIntensity', intensity) === this.environment.intensity) return;
+    this.environment.adjust({ intensity }, this.scene !== undefined);
     this.#quietly(this.#relight());
   }
 
   /** See {@link ViewerOptions.environmentRotation}. */
   get environmentRotation(): number {
-    return this.surroundings.rotation;
+    return this.environment.rotation;
   }
 
   set environmentRotation(rotation: number) {
-    if (checkedSetting('environmentRotation', rotation) === this.surroundings.rotation) return;
-    this.surroundings.adjust({ rotation }, this.scene !== undefined);
+    if (checkedSetting('environmentRotation', rotation) === this.environment.rotation) return;
+    this.environment.adjust({ rotation }, this.scene !== undefined);
     this.#quietly(this.#relight());
   }
 
@@ -277,7 +277,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     return this.scene;
   }
 
-  /** @internal Tells what failed. */
+  /** @internal Emits what failed. */
   protected fail(error: unknown, retry?: () => void): void {
     if (this.state === 'destroyed') return;
     const { message, code } = (typeof error === 'object' && error !== null ? error : { message: String(error) }) as {
@@ -292,7 +292,7 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
     });
   }
 
-  /** @internal Tells what is replaced or waited for. */
+  /** @internal Emits what is replaced or waited for. */
   protected warn(error: GlanzError): void {
     this.emit('warning', { error, message: error.message.split('\n')[0] as string, code: error.code });
   }
@@ -310,6 +310,6 @@ export abstract class ViewerSettings extends Emitter<ViewerEvents> {
 
   async #relight(): Promise<void> {
     if (!this.scene) return;
-    await this.engine.edit('environment', (tracer) => this.surroundings.apply(tracer));
+    await this.engine.edit('environment', (tracer) => this.environment.apply(tracer));
   }
 }

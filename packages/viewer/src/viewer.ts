@@ -6,7 +6,7 @@ import { isAbort } from './errors';
 import type { LoadStage } from './events';
 import { fitCamera } from './fit-camera';
 import { loadModel, type ModelSource } from './load';
-import { withEnvironment } from './surroundings';
+import { withEnvironment } from './viewer-environment';
 import type { linearColors, MaterialEdit } from './material-colors';
 import type { BlobOptions, ViewerOptions } from './options';
 import { plainScene } from './variants';
@@ -33,7 +33,7 @@ const STAGES: Readonly<Record<LoadStage, readonly [number, number]>> = {
 };
 
 /**
- * A path-traced image on a canvas: loads models, turns them under the user's hands, refines the image when they
+ * A path-traced image on a canvas: loads models, turns them by pointer and keys, refines the image when they
  * rest, sleeps out of sight, and survives the loss of the GPU. Made by {@link createViewer}.
  */
 export class Viewer extends ViewerCamera {
@@ -48,7 +48,7 @@ export class Viewer extends ViewerCamera {
     options.signal?.addEventListener('abort', () => this.destroy(), { once: true });
   }
 
-  /** Names of the looks that the model has. */
+  /** Names of the model's variants. */
   get variants(): readonly string[] {
     return this.scene?.variants ?? [];
   }
@@ -60,7 +60,7 @@ export class Viewer extends ViewerCamera {
    *
    * @returns The scene as it was loaded.
    * @throws {GltfError} {FormatError} for files that cannot be read; {ViewerError} `viewer/no-model`,
-   * `viewer/destroyed`; {DeviceError} {RenderError} for what the GPU cannot do. The `error` event tells them too.
+   * `viewer/destroyed`; {DeviceError} {RenderError} for what the GPU cannot do. The `error` event has them too.
    * @throws the signal's reason, or an `AbortError`, when aborted.
    * @example
    * await viewer.load('chair.glb');
@@ -92,15 +92,15 @@ export class Viewer extends ViewerCamera {
     }
   }
 
-  /** Name of the look that is on; `undefined` is the model's own. */
+  /** Name of the variant that is shown; `undefined`: the model's own materials. */
   get variant(): string | undefined {
     return this.#variant;
   }
 
   /**
-   * Puts the model into one of its looks, or into its own.
+   * Shows one of the model's variants, or its own materials.
    * @returns When the image shows it.
-   * @throws {RenderError} `renderer/variant` if it has no such look; {ViewerError} `viewer/no-scene`.
+   * @throws {RenderError} `renderer/variant` if it has no such variant; {ViewerError} `viewer/no-scene`.
    */
   async setVariant(variant: string | undefined): Promise<void> {
     await this.edit((tracer) => tracer.setVariant(variant), { key: 'variant' });
@@ -192,10 +192,10 @@ export class Viewer extends ViewerCamera {
       compressedFormats: () => this.engine.compressedFormats(),
       onProgress,
     });
-    const [scene, surround] = await Promise.all([reading, this.surroundings.fetch(signal), this.engine.connect()]);
+    const [scene, prepare] = await Promise.all([reading, this.environment.fetch(signal), this.engine.connect()]);
     signal.throwIfAborted();
-    const { lit, warning, adopt } = await surround(scene);
-    // Each goes through all vertices.
+    const { lit, warning, adopt } = await prepare(scene);
+    // Each iterates over all vertices.
     const camera = await inSlices(this.cameraSteps(scene, options.camera ?? this.options.camera ?? 'auto'), { signal });
     const bounds = await inSlices(sceneBoundsSteps(scene), { signal });
     const wanted = options.variant ?? this.options.variant;

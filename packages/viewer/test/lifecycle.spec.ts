@@ -251,7 +251,7 @@ test('in a tab that is hidden again and again nothing is submitted, and the imag
   expect(await film()).toBe(before);
 });
 
-test('a GPU that complains outside of any call is reported by the error event, and the viewer goes on', async ({
+test('a GPU that complains outside of any call is reported by the error event, and the viewer keeps working', async ({
   page,
 }) => {
   await injectFaults(page);

@@ -3,10 +3,10 @@ import { injectFaults, quads, servePage, watch, type Served } from '@glanz/brows
 import { expect, test, type Page } from '@playwright/test';
 import type {} from './open';
 
-/** How a run ended: bits of the finished film, or what was told. */
+/** How a run ended: bits of the finished film, or what was reported. */
 interface End {
   readonly film: string;
-  readonly told: readonly string[];
+  readonly reported: readonly string[];
   readonly lost: boolean;
   readonly losses: number;
   readonly errors: readonly string[];
@@ -34,7 +34,7 @@ async function run(
   await page.goto(served.origin);
   return page.evaluate(async (base64) => {
     const { gpuFaults: gpu } = window;
-    const told: string[] = [];
+    const reported: string[] = [];
     let losses = 0;
     const viewer = window.make({
       samples: 2,
@@ -42,7 +42,7 @@ async function run(
       pixelRatio: 0.25,
       environment: { type: 'constant', radiance: [1, 1, 1] },
     });
-    viewer.on('error', ({ code }) => void told.push(code));
+    viewer.on('error', ({ code }) => void reported.push(code));
     viewer.on('device-lost', () => void losses++);
     const done = () =>
       new Promise<void>((resolve, reject) => {
@@ -78,12 +78,12 @@ async function run(
       const digest = await crypto.subtle.digest('SHA-256', pixels);
       film = `${viewer.tracer!.width} ${viewer.tracer!.height} ${Array.from(new Uint8Array(digest), (byte) => byte.toString(16)).join('')}`;
     } catch (error) {
-      told.push(`ended by ${String((error as { code?: string }).code ?? error)}`);
+      reported.push(`ended by ${String((error as { code?: string }).code ?? error)}`);
     }
     const count = { ...gpu.count };
     viewer.destroy();
     await new Promise((resolve) => setTimeout(resolve, 50));
-    return { film, told, losses, lost: gpu.injected.length > 0, errors: [...gpu.errors], leaks: gpu.live(), count };
+    return { film, reported, losses, lost: gpu.injected.length > 0, errors: [...gpu.errors], leaks: gpu.live(), count };
   }, model.toString('base64'));
 }
 
@@ -112,7 +112,7 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
     return { ...end, complaints };
   };
   const reference = await attempt();
-  expect(reference).toMatchObject({ told: [], losses: 0, errors: [], leaks: {}, complaints: [] });
+  expect(reference).toMatchObject({ reported: [], losses: 0, errors: [], leaks: {}, complaints: [] });
   expect(reference.film).toMatch(/^50 \d+ /);
   const bad: string[] = [];
   let tried = 0;
@@ -127,7 +127,8 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
       if (!end.lost) continue;
       tried++;
       const where = `${point} ${at} of ${calls}`;
-      if (end.film !== reference.film) bad.push(`${where}: another image, told ${end.told.join(', ') || 'nothing'}`);
+      if (end.film !== reference.film)
+        bad.push(`${where}: another image, reported ${end.reported.join(', ') || 'nothing'}`);
       if (Object.keys(end.leaks).length > 0) bad.push(`${where}: left ${JSON.stringify(end.leaks)}`);
       if (end.complaints.length > 0) bad.push(`${where}: ${end.complaints.join('; ')}`);
     }

@@ -26,7 +26,7 @@ describe('OrbitRig', () => {
     }
   });
 
-  it('gives back the orbit that it was told, with the magnification of a parallel projection', () => {
+  it('returns the orbit that it was given, with the magnification of a parallel projection', () => {
     for (const camera of [
       front,
       { type: 'orthographic', name: 'side', transform: front.transform, xmag: 4, ymag: 2 } as const,

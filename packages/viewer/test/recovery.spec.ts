@@ -70,13 +70,13 @@ test('after it gave up, load() and an explicit retry ask for a device again', as
   expect((await shot(page)).cells).toEqual(before.cells);
 });
 
-test('an abort, a newer load and destroy() end a load at once, although the driver goes on compiling', async ({
+test('an abort, a newer load and destroy() end a load at once, although the driver still compiles', async ({
   page,
 }) => {
   await injectFaults(page);
   await open(page, served.origin);
   const before = await shot(page);
-  // Another depth of features: kernels that are not there yet.
+  // Another depth of features: kernels that do not exist yet.
   const result = await page.evaluate(async (bytes) => {
     const { viewer, gpuFaults: faults } = window;
     const scene = () => ({
@@ -176,7 +176,7 @@ test('samples outlive a lost GPU: a finished image is the same to the last bit a
     expect(await heard(page, 'sample')).toEqual([]);
   }
   expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(12);
-  // More of them go on from there: the same as without a loss.
+  // More of them continue from there: the same as without a loss.
   await page.evaluate(() => void (window.viewer.samples = 20));
   await expect.poll(async () => (await heard(page, 'sample')).at(-1)?.['samples']).toBe(20);
   await done(page);
@@ -188,7 +188,7 @@ test('samples outlive a lost GPU: a finished image is the same to the last bit a
   expect(await film(page)).toBe(resumed);
 });
 
-test('an image that is being rendered goes on where it was copied; without a copy the event says what was lost', async ({
+test('an image that is being rendered continues from its last copy; without a copy the event says what was lost', async ({
   page,
 }) => {
   await injectFaults(page);
@@ -222,7 +222,7 @@ test('an image that is being rendered goes on where it was copied; without a cop
   expect(await heard(page, 'error')).toEqual([]);
 });
 
-test('without memory for a larger film the image stays as large as it can, with one error, and the viewer goes on', async ({
+test('without memory for a larger film the image stays as large as it can, with one error, and the viewer keeps working', async ({
   page,
 }) => {
   await injectFaults(page);

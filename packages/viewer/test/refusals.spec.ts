@@ -181,8 +181,8 @@ test('a display whose shaders never compile is a typed error of load(), and work
           pixelRatio: 0.25,
           environment: { type: 'constant', radiance: [1, 1, 1] },
         }));
-        const told: string[] = [];
-        viewer.on('error', (event) => void told.push(event.code));
+        const reported: string[] = [];
+        viewer.on('error', (event) => void reported.push(event.code));
         const load = () =>
           viewer.load(window.file(bytes, 'model.glb')).then(
             () => 'loaded',
@@ -193,11 +193,11 @@ test('a display whose shaders never compile is a typed error of load(), and work
         const second = await load();
         viewer.destroy();
         await new Promise((resolve) => setTimeout(resolve, 50));
-        return { first, told, second, live: window.gpuFaults.live() };
+        return { first, reported, second, live: window.gpuFaults.live() };
       },
       [label, base64] as const,
     );
-    expect(end).toEqual({ first: code, told: [code], second: 'loaded', live: {} });
+    expect(end).toEqual({ first: code, reported: [code], second: 'loaded', live: {} });
   }
 });
 

@@ -16,7 +16,7 @@ test.afterEach(() => expect(complaints).toEqual([]));
 
 const open = (page: Page, options?: ViewerOptions, bytes?: Buffer) => openAt(page, served.origin, options, bytes);
 
-test('a model appears as it is, events tell of it, and the view is the one asked for', async ({ page }) => {
+test('a model appears as it is, events report it, and the view is the one asked for', async ({ page }) => {
   await open(page);
   const { cells } = await shot(page);
   const [left, middle, right] = cells.slice(3, 6) as [number, number, number][];
@@ -38,9 +38,7 @@ test('a model appears as it is, events tell of it, and the view is the one asked
   ).toEqual(['loading', 'moving', 'rendering', 'done']);
 });
 
-test('warms up until there is a model, where that is asked for or the GPU is none that the CPU imitates', async ({
-  page,
-}) => {
+test('warms up until there is a model, where that is asked for or the adapter is not software', async ({ page }) => {
   await page.addInitScript(() => {
     window.kernels = [];
     // Bound again below.
@@ -212,7 +210,7 @@ async function paintByName(page: Page): Promise<void> {
   expect(found.pair).toEqual([expect.stringMatching(/^renderer\/material: .*base_metalness is 2/), 'taken']);
 }
 
-test('variant, material, exposure, surroundings and background reach the image', async ({ page }) => {
+test('variant, material, exposure, environment and background reach the image', async ({ page }) => {
   await open(page);
   const right = async () => (await shot(page)).cells[5]!;
   const green = await right();
@@ -311,7 +309,7 @@ test('the canvas has the size of the image when load() resolves, although nothin
   expect(size).toEqual([150, 100, 0]);
 });
 
-test('out of sight nothing is computed; back in sight it goes on', async ({ page }) => {
+test('out of sight nothing is computed; back in sight it continues', async ({ page }) => {
   await open(page, { samples: 4096 });
   await page.evaluate(() => void (document.querySelector('canvas')!.style.marginTop = '3000px'));
   await expect.poll(() => page.evaluate(() => window.viewer.state)).toBe('hidden');
@@ -324,7 +322,7 @@ test('out of sight nothing is computed; back in sight it goes on', async ({ page
   await expect.poll(count).toBeGreaterThan(asleep);
 });
 
-test('a bad file is told in one line with its code, and the former model stays', async ({ page }) => {
+test('a bad file is reported in one line with its code, and the former model stays', async ({ page }) => {
   await open(page);
   const before = await shot(page);
   const failed = await page.evaluate(() =>
@@ -375,7 +373,7 @@ test('a lost device comes back with the scene as it was edited, and its variant'
   expect(green[1]).toBeGreaterThan(1.5 * green[2]);
 });
 
-test('a GPU that falls over while the page starts is asked for again; one that is not there is told of', async ({
+test('a GPU process that crashes while the page starts is requested again; a missing GPU is reported', async ({
   page,
 }) => {
   // As when the GPU's process ends: for a while no adapter, then one whose device does not come.

@@ -20,10 +20,10 @@ interface Prepared {
   readonly adopt: () => void;
 }
 
-/** The environment that a viewer was given, and how bright and how turned it is. What a tracer refuses is not kept. */
-export class Surroundings {
+/** A viewer's environment with its intensity and rotation. What a tracer refuses is not kept. */
+export class ViewerEnvironment {
   #now: Setting;
-  /** What was last seen to work. */
+  /** The last one that a tracer accepted. */
   #accepted: Setting;
 
   constructor(source: EnvironmentSource = 'scene', intensity = 1, rotation = 0) {
@@ -38,20 +38,20 @@ export class Surroundings {
     return this.#now.rotation;
   }
 
-  /** Another brightness or rotation. With a scene, {@link apply} has to follow. */
+  /** Sets intensity or rotation. With a scene, {@link apply} has to follow. */
   adjust(change: Partial<Pick<Setting, 'intensity' | 'rotation'>>, hasScene: boolean): void {
     this.#set(change, hasScene);
   }
 
   /**
-   * Another environment, from now on. With a scene, {@link apply} has to follow.
+   * Sets another environment. With a scene, {@link apply} has to follow.
    * @throws for what cannot be read, or is no environment; the former one stays.
    */
   async change(source: EnvironmentSource, scene: Scene | undefined, signal: AbortSignal): Promise<void> {
     const given = await loadEnvironment(source, signal);
     signal.throwIfAborted();
     const loaded = await forScene(source, given, scene);
-    // Without a tracer nobody else looks at it.
+    // Without a tracer nothing else validates it.
     if (!scene && loaded) await inSlices(validationSteps({ ...createScene(), environment: loaded }), { signal });
     signal.throwIfAborted();
     this.#set({ source, loaded }, scene !== undefined);
@@ -110,7 +110,7 @@ function lit({ loaded, intensity: k, rotation }: Setting): Environment | undefin
   return { ...loaded, intensity: (loaded.intensity ?? 1) * k, rotation: (loaded.rotation ?? 0) + rotation };
 }
 
-/** `scene` without surroundings of its own is the studio. */
+/** `scene` is the studio where the scene has no environment. */
 const forScene = async (
   source: EnvironmentSource,
   given: Environment | undefined,
@@ -118,7 +118,7 @@ const forScene = async (
 ): Promise<Environment | undefined> =>
   given ?? (source === 'scene' ? (scene?.environment ?? (await loadEnvironment('studio'))) : undefined);
 
-/** The scene in other surroundings. */
+/** The scene with another environment. */
 export function withEnvironment(scene: Scene, environment: Environment | undefined): Scene {
   const { environment: _, ...rest } = scene;
   return environment ? { ...rest, environment } : rest;
