@@ -4,13 +4,12 @@ import type { ReflectedProperties } from './attributes';
 import type { HotspotView } from './hotspots';
 
 /**
- * What the element tells, as `CustomEvent`s that do not bubble; `detail` is that of the viewer's event of the same
- * name.
+ * Events of the element: `CustomEvent`s that do not bubble; `detail` is that of the viewer's event of the same name.
  */
 export interface GlanzViewerEventMap {
   /** The model that `src` names, or that `show()` was given, is loaded. */
   load: CustomEvent<ViewerEvents['load']>;
-  /** Loading goes on. `totalProgress`: share of the whole load, 0..1. */
+  /** Loading progresses. `totalProgress`: share of the whole load, 0..1. */
   progress: CustomEvent<ViewerEvents['progress'] & { readonly totalProgress: number }>;
   /** Something failed: `message` in one line, `code`, and `retry` where trying again can help. */
   error: CustomEvent<ViewerEvents['error']>;
@@ -60,7 +59,7 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   exposure: number | null;
   /** Whether the model that `src` names is there. */
   readonly loaded: boolean;
-  /** Names of the looks that the model has. */
+  /** Names of the model's variants. */
   readonly availableVariants: readonly string[];
   /** Shows a model that has no address: a file, files, or a scene. Stays until `src` changes. */
   show(source: ModelSource): Promise<void>;

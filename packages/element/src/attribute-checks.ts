@@ -57,7 +57,7 @@ const isFieldOfView = (text: string) => {
   return isAuto(text.trim()) || (value !== undefined && value > 0.01 && value < Math.PI - 0.01);
 };
 
-/** What the attributes that are texts take, in words, and how to tell. */
+/** What the attributes that are texts accept, in words, and how to check it. */
 const TEXTS: Readonly<Partial<Record<AttributeName, readonly [takes: string, test: (text: string) => boolean]>>> = {
   'camera-orbit': ['an angle, an angle and a distance, such as "45deg 75deg 2m", each or "auto"', isOrbit],
   'min-camera-orbit': ['an angle, an angle and a distance, each or "auto"', isLimit],

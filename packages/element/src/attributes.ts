@@ -169,7 +169,7 @@ type Value<Kind extends AttributeKind> = Kind extends 'flag'
     ? number | null
     : string | null;
 
-/** The properties that reflect the attributes; `null` where an attribute is not there. */
+/** The properties that reflect the attributes; `null` where an attribute is missing. */
 export type ReflectedProperties = {
   -readonly [Name in AttributeName as Camel<Name>]: Value<(typeof ATTRIBUTES)[Name]>;
 };

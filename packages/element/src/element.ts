@@ -27,7 +27,7 @@ const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']
  * sample.
  */
 const POSTER_SAMPLES = 64;
-/** Milliseconds after the last movement before the view is told to those who hear it. */
+/** Milliseconds after the last movement before the view is announced to screen readers. */
 const SPEAK_MS = 600;
 
 let made: GlanzViewerConstructor | undefined;
@@ -190,7 +190,7 @@ function makeClass(): GlanzViewerConstructor {
       if (this.#revealed) return;
       this.#revealed = true;
       this.#shadow?.poster.classList.add('gone');
-      this.#tell('poster-dismissed', undefined);
+      this.#emit('poster-dismissed', undefined);
     }
 
     showPoster(): void {
@@ -336,17 +336,17 @@ function makeClass(): GlanzViewerConstructor {
 
     #listen(viewer: Viewer, { bar, poster, progress, message }: Shadow): void {
       for (const type of ['sample', 'converged', 'device-lost', 'device-restored'] as const)
-        viewer.on(type, (detail) => this.#tell(type, detail));
+        viewer.on(type, (detail) => this.#emit(type, detail));
       const alert = (text: string) => {
         progress.classList.add('gone');
         message.textContent = text;
         message.hidden = false;
       };
       viewer.on('progress', (detail) => {
-        // Not beside the news that there is no GPU: nothing goes on until there is one.
+        // Not beside the message that there is no GPU: nothing happens until there is one.
         progress.classList.toggle('gone', !message.hidden);
         bar.style.transform = `scaleX(${detail.total.toFixed(3)})`;
-        this.#tell('progress', { ...detail, totalProgress: detail.total });
+        this.#emit('progress', { ...detail, totalProgress: detail.total });
       });
       viewer.on('load', (detail) => {
         this.#loaded = true;
@@ -356,20 +356,20 @@ function makeClass(): GlanzViewerConstructor {
         poster.classList.toggle('through', this.getAttribute('reveal') !== 'manual');
         this.#attempt(() => void (viewer.orbitLimits = limitsOf(detail.scene, this.#aspect, this.#view)));
         this.#speak(`${this.#name} is there.`);
-        this.#tell('load', detail);
+        this.#emit('load', detail);
       });
       viewer.on('error', (detail) => {
         alert(detail.message);
-        this.#tell('error', detail);
+        this.#emit('error', detail);
       });
       viewer.on('warning', (detail) => {
         if (detail.code !== 'viewer/environment') alert(detail.message);
-        this.#tell('warning', detail);
+        this.#emit('warning', detail);
       });
       viewer.on('converged', () => this.#reveal());
       viewer.on('device-restored', () => void (message.hidden = true));
       viewer.on('camera-change', (detail) => {
-        this.#tell('camera-change', detail);
+        this.#emit('camera-change', detail);
         // The poster shows another view now.
         if (detail.source !== 'api') this.#reveal();
         if (detail.source !== 'user') return;
@@ -441,7 +441,7 @@ function makeClass(): GlanzViewerConstructor {
       const name = this.getAttribute('variant-name');
       if (!viewer.scene) return;
       viewer.setVariant(name === null || name === 'default' ? undefined : name).then(
-        () => this.#tell('variant-applied', { variantName: name }),
+        () => this.#emit('variant-applied', { variantName: name }),
         (error: unknown) => this.#fail(error),
       );
     }
@@ -482,14 +482,14 @@ function makeClass(): GlanzViewerConstructor {
     #fail(error: unknown, type: 'error' | 'warning' = 'error'): void {
       if ((error as { name?: string }).name === 'AbortError') return;
       const { message = 'Something failed.', code } = error as { message?: string; code?: string };
-      this.#tell(type, { error, message: message.split('\n')[0] as string, code: code ?? 'unexpected' });
+      this.#emit(type, { error, message: message.split('\n')[0] as string, code: code ?? 'unexpected' });
     }
 
     #speak(text: string): void {
       if (this.#shadow) this.#shadow.spoken.textContent = text;
     }
 
-    #tell<K extends keyof GlanzViewerEventMap>(type: K, detail: GlanzViewerEventMap[K]['detail']): void {
+    #emit<K extends keyof GlanzViewerEventMap>(type: K, detail: GlanzViewerEventMap[K]['detail']): void {
       this.dispatchEvent(new CustomEvent(type, { detail }));
     }
   }

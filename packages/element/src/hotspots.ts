@@ -111,7 +111,7 @@ export class HotspotLayer {
       const now = String(view.visible);
       if (before !== now) {
         box.dataset['visible'] = now;
-        // As model-viewer tells it.
+        // As model-viewer does.
         if (before !== undefined)
           element.dispatchEvent(new CustomEvent('hotspot-visibility', { detail: { visible: view.visible } }));
       }

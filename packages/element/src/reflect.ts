@@ -3,7 +3,7 @@ import { ATTRIBUTES, camel, type AttributeKind, type AttributeName } from './att
 import { ElementError } from './errors';
 
 /**
- * The text of a property's value. A string is taken as markup is: what it cannot be is told by the `error` event.
+ * The text of a property's value. A string is taken as markup is: an invalid one is reported by the `error` event.
  * @throws {ElementError} `element/property`
  */
 function textOf(name: AttributeName, kind: AttributeKind, value: unknown): string {

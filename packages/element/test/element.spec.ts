@@ -163,7 +163,9 @@ test('attributes and properties reflect, and reach the image', async ({ page }) 
   expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.availableVariants)).toEqual([]);
 });
 
-test('hands and keys move it where camera-controls is, within limits, and the new view is spoken', async ({ page }) => {
+test('pointer and keys move it where camera-controls is, within limits, and the new view is spoken', async ({
+  page,
+}) => {
   await open(page, { 'camera-controls': '', 'max-camera-orbit': '30deg auto auto', 'interpolation-decay': '0' });
   const orbit = () => page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!);
   await page.keyboard.press('Tab');
@@ -280,7 +282,7 @@ test('a poster waits for the image, or for the page; loading waits for the eye',
   await expect(page.getByText('Wait')).toBeHidden();
 });
 
-test('a bad file is told; the former image stays; the next good one clears the message', async ({ page }) => {
+test('a bad file is reported; the former image stays; the next good one clears the message', async ({ page }) => {
   await open(page);
   const before = await shot(page);
   await page.evaluate(() => void (document.querySelector('glanz-viewer')!.src = 'bad.glb'));
@@ -303,7 +305,7 @@ test('resized, hidden, shown, moved in the page, taken out and put back', async 
   await expect.poll(() => state(page)).toBe('hidden');
   await viewer(page).evaluate((element) => void (element.style.display = 'block'));
   await done(page);
-  // Moved: the same viewer goes on. Taken out: everything is let go. Put back: it loads again.
+  // Moved: the same viewer continues. Taken out: everything is released. Put back: it loads again.
   const kept = await page.evaluate(async () => {
     const element = document.querySelector('glanz-viewer')!;
     const before = element.viewer;
@@ -352,7 +354,7 @@ test("toBlob, by our names and by model-viewer's", async ({ page }) => {
   expect(files).toEqual(['image/png', 'image/jpeg', 160, 100]);
 });
 
-test('without WebGPU the poster stays and the reason is told', async ({ page }) => {
+test('without WebGPU the poster stays and the reason is reported', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined }));
   await page.goto(served.origin);
   // Said at once: the model is not waited for.
@@ -516,7 +518,7 @@ test('what a property or an attribute cannot be is a typed error, and the image 
   expect((await shot(page)).cells).toEqual(before.cells);
 
   // The same from the start, and an image that nobody will ever see is not waited for.
-  const told = await page.evaluate(async () => {
+  const code = await page.evaluate(async () => {
     document.querySelector('glanz-viewer')!.remove();
     const element = window.put({ samples: 'many', loading: 'eager' });
     return element.toBlob().then(
@@ -524,7 +526,7 @@ test('what a property or an attribute cannot be is a typed error, and the image 
       (error: { code?: string }) => error.code,
     );
   });
-  expect(told).toBe('element/no-model');
+  expect(code).toBe('element/no-model');
 });
 
 test('decoders can be replaced, and one that does not start is an error that says which attribute to look at', async ({

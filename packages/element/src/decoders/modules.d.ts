@@ -1,5 +1,5 @@
 declare module 'draco3dgltf/draco_decoder_gltf_nodejs.js' {
-  /** Starts the decoder; `instantiateWasm` makes the instance and hands it to `done`. */
+  /** Starts the decoder; `instantiateWasm` makes the instance and passes it to `done`. */
   const create: (options: {
     readonly instantiateWasm: (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void) => object;
   }) => Promise<unknown>;
