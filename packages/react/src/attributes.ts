@@ -1,7 +1,7 @@
 import type { AttributeName } from '@glanz/element';
 import type { HtmlProps } from './html';
 
-/** Props that React handles itself, and hands to the element under their own name. */
+/** Props that React handles itself, and passes to the element under their own name. */
 const OF_REACT = new Set(['style', 'dangerouslySetInnerHTML', 'suppressContentEditableWarning']);
 
 /** Attributes for which `false` is a value, not their absence; `aria-…` and `data-…` are others. */

@@ -26,7 +26,7 @@ describe('on a server', () => {
         createElement('img', { slot: 'poster', src: 'chair.webp', alt: '' }),
       ),
     );
-    // React tells the browser of the image before.
+    // React announces the image to the browser before.
     const from = html.indexOf('<glanz-viewer ');
     const tag = html.slice(from, html.indexOf('>', from) + 1);
     for (const attribute of [
