@@ -15,7 +15,7 @@ export default defineConfig({
   resolve: { conditions: ['@glanz/source', 'module', 'browser', 'import', 'default'] },
   server: { port: 5173, open: hasScreen },
   preview: { port: 4173 },
-  // Found here rather than when a model is first opened, which would reload the page under the user's hands.
+  // Found here rather than when a model is first opened, which would reload the page while it is used.
   optimizeDeps: {
     include: [
       '@glanz/image > fflate',

@@ -26,7 +26,7 @@ import { filmSize } from './viewer/film-size';
 import { Outline } from './viewer/outline';
 import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
-import { chosenInVariant, wornMaterial } from './viewer/worn';
+import { chosenInVariant, assignedMaterial } from './viewer/assigned-material';
 
 /** The page: joins controls, files and the session. */
 export class App {
@@ -85,7 +85,7 @@ export class App {
         camera: (aspect) => app.#cameraFor(aspect),
       },
       {
-        onStatus: (status) => app.#told(status),
+        onStatus: (status) => app.#showStatus(status),
         onError: (error, retry) => app.#fail(error, retry),
         onRecovered: (samples) => {
           app.#messages.clearErrors();
@@ -163,7 +163,7 @@ export class App {
       )
         this.#outline?.clear();
       if (next.scale !== before.scale) this.#resize();
-      // Whoever goes on editing edits what is seen.
+      // Further edits apply to what is seen.
       if (next.variant !== before.variant && source !== 'load' && this.#opened)
         this.#selection.choose(
           chosenInVariant(this.#opened.scene, this.#selection.chosen, before.variant, next.variant),
@@ -261,7 +261,7 @@ export class App {
       const { scene } = opened;
       const first = this.#opened === undefined;
       const begin = state ?? stateFor(scene, request, this.#store.state, { link: this.#link, first });
-      // What is changed until the image is there goes on top.
+      // What is changed until the image is ready is applied on top.
       const from = this.#store.state;
       const now = (): State =>
         this.#store.state === from ? begin : { ...begin, ...changedSince(from, this.#store.state) };
@@ -426,7 +426,7 @@ export class App {
       return;
     }
     this.#selection.choose({
-      material: wornMaterial(this.#opened!.scene, picked.instance, this.#store.state.variant),
+      material: assignedMaterial(this.#opened!.scene, picked.instance, this.#store.state.variant),
       instance: picked.instance,
     });
     this.#canvas.dataset['picked'] = part.name || `part ${picked.instance + 1}`;
@@ -475,7 +475,7 @@ export class App {
       );
   }
 
-  #told(status: SessionStatus): void {
+  #showStatus(status: SessionStatus): void {
     this.#status.show(status);
     if (status.state === 'done' || status.state === 'paused') this.#outline?.settled();
     for (const listener of this.#statusListeners) listener(status);

@@ -8,7 +8,7 @@ function loadEarly() {
   const name: SampleName = wanted !== null && Object.hasOwn(SAMPLES, wanted) ? (wanted as SampleName) : 'push-button';
   const request = { kind: 'sample', name } as const;
   const scene = loadScene(request, { signal: new AbortController().signal });
-  // Told where it is awaited.
+  // Reported where it is awaited.
   scene.catch(() => undefined);
   return { request, scene };
 }

@@ -96,8 +96,8 @@ test('every choice shows parts that the kit has, and one lens, one bezel and at 
     expect([...visible].filter((name) => !optional.has(name))).toEqual([]);
     expect([of('Lens'), of('Bezel'), of('Legend')]).toEqual([1, 1, button.legend === 'N' ? 0 : 1]);
     expect(heights.size).toBe(button.legend === 'N' ? 0 : 1);
-    const lamp = PUSH_BUTTON_KIT.blocks['Lamp block'].every((name) => visible.has(name));
-    expect(lamp).toBe(button.light !== 'N');
+    const lampBlock = PUSH_BUTTON_KIT.blocks['Lamp block'].every((name) => visible.has(name));
+    expect(lampBlock).toBe(button.light !== 'N');
     expect(sentence(button)).toMatch(/^[A-Z][^.]{60,}\.$/);
   }
 });

@@ -38,7 +38,7 @@ async function done(page: Page): Promise<void> {
 async function choose(page: Page, id: string): Promise<void> {
   const before = await dataOf(page, 'price');
   await page.locator(`#${id}`).check({ force: true });
-  await expect.poll(() => dataOf(page, 'price'), { message: 'the price of the change is told' }).not.toBe(before);
+  await expect.poll(() => dataOf(page, 'price'), { message: 'the cost of the change is shown' }).not.toBe(before);
   await done(page);
 }
 

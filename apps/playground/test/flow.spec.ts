@@ -285,9 +285,9 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
   await finished(page);
   const restarts = await dataOf(page, 'restarts');
   const lit = await photograph(imageOf(page));
-  const lamp = page.locator('#light-groups .field', { hasText: 'light' }).locator('input[type=number]').last();
-  await lamp.fill('0');
-  await lamp.press('Tab');
+  const strength = page.locator('#light-groups .field', { hasText: 'light' }).locator('input[type=number]').last();
+  await strength.fill('0');
+  await strength.press('Tab');
   await expect.poll(async () => (await photograph(imageOf(page))).cells[4]![0]).toBeLessThan(0.8 * lit.cells[4]![0]);
   expect(await dataOf(page, 'restarts')).toBe(restarts);
 });
@@ -304,7 +304,7 @@ const png = async (page: Page, colour: string) =>
     }, colour),
   );
 
-test('an image on a parameter multiplies it, and goes again; a file that is no image is told', async ({ page }) => {
+test('an image on a parameter multiplies it, and goes again; a file that is no image is reported', async ({ page }) => {
   await open(page);
   await drop(page, [{ name: 'sails.glb', bytes: sails() }]);
   await expect.poll(() => dataOf(page, 'scene')).toBe('sails.glb');

@@ -13,7 +13,7 @@ const ALONE = '.status, .messages, .tools, #outline { visibility: hidden } #imag
 /** The canvas as the browser's window shows it. */
 export const photograph = (canvas: Locator): Promise<Pixels> => photographAll(canvas, ALONE);
 
-/** Drops files on the page as a hand would. */
+/** Drops files on the page as a user would. */
 export async function drop(
   page: Page,
   files: readonly { readonly name: string; readonly bytes: Buffer }[],
@@ -40,7 +40,7 @@ export const dataOf = async (page: Page, name: string): Promise<string> =>
 /** Opens the page and waits for a scene and its controls. */
 export async function open(page: Page, address: string): Promise<void> {
   await page.goto(address);
-  // Where none comes, what the page says meanwhile tells why.
+  // Where none comes, the messages of the page say why.
   const shown = async () =>
     (await dataOf(page, 'scene')) === ''
       ? (await page.locator('.status, .messages').allInnerTexts()).join(' ').replace(/\s+/g, ' ')
@@ -72,7 +72,7 @@ export const errorWith = (page: Page, code: string): Locator => page.locator(`[r
 export const tab = (page: Page, name: 'Scene' | 'Material' | 'Light' | 'Camera' | 'Render'): Promise<void> =>
   page.getByRole('tab', { name }).click();
 
-/** What the dialog for images is told, by the ids of its controls. */
+/** Settings of the dialog for images, by the ids of its controls. */
 export interface RenderSettings {
   readonly width: number;
   readonly height: number;

@@ -53,7 +53,7 @@ test('the Cornell box appears: light above, red left, green right; the saved ima
   const [, top, , left, middle, right] = shown.cells as [number, number, number][];
   expect(left![0]).toBeGreaterThan(1.5 * left![1]);
   expect(right![1]).toBeGreaterThan(1.15 * right![0]);
-  // The lamp is in the upper middle; the back wall is the brightest matt thing, and lit in the lamp's warm colour.
+  // The light is in the upper middle; the back wall is the brightest diffuse surface, lit in the light's warm colour.
   expect(top![0]).toBeGreaterThan(50);
   expect(middle![0]).toBeGreaterThan(middle![2]);
   expect(middle![0]).toBeGreaterThan(50);
@@ -255,7 +255,7 @@ test('a change that needs other shaders: a matt wall becomes a mirror', async ({
     await box.fill(value!);
     await box.press('Tab');
   }
-  // It shows the back wall now, which is white in the warm light of the lamp: less blue than green, less green than
+  // It shows the back wall now, which is white in the warm light: less blue than green, less green than
   // red.
   await expect
     .poll(async () => {
@@ -355,7 +355,7 @@ test('layers: the walls have the normals that they must have, and materials have
   expect((await pixel()).left[0]).toBeGreaterThan((await pixel()).left[2] * 1.5);
 });
 
-test('dropped models: broken ones are told in a line and the former scene stays, a good one takes its place', async ({
+test('dropped models: broken ones are reported in a line and the former scene stays, a good one takes its place', async ({
   page,
 }) => {
   await open(page);
@@ -420,7 +420,7 @@ test(`a folder with a compressed model and its texture${hasDuck ? '' : ' (skippe
   await expect.poll(() => dataOf(page, 'scene')).toBe('Duck.gltf');
   await finished(page);
   await expect(page.locator('[data-statistic=triangles]')).toHaveText('4,212');
-  // Its texture is yellow, on grey surroundings: without it there would be no colour at all.
+  // Its texture is yellow, before a grey environment: without it there would be no colour at all.
   const [r, g, b] = (await photograph(canvasOf(page))).cells[4]!;
   expect(r).toBeGreaterThan(g);
   expect(g).toBeGreaterThan(b + 25);
@@ -432,7 +432,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   await restarting(page, () => drop(page, [{ name: 'red room.hdr', bytes: hdr([128, 16, 16, 129]) }]));
   await tab(page, 'Light');
   await expect(page.locator('#environment option:checked')).toHaveText('red room.hdr');
-  // Left of the box there is nothing but the surroundings: 1, 0.125, 0.125 through the tone map.
+  // Left of the box there is nothing but the environment: 1, 0.125, 0.125 through the tone map.
   const box = (await canvasOf(page).boundingBox())!;
   // The kernels for it may still be on their way, while those of before show their image.
   await expect(async () => {
@@ -444,7 +444,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
     expect(mean[1]).toBeLessThan(mean[0] - 60);
   }).toPass({ timeout: 30_000 });
 
-  // A link cannot hold the file: who makes it is told so, and who opens it.
+  // A link cannot hold the file: the page says so to who makes it, and to who opens it.
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await page.getByRole('button', { name: 'Share' }).click();
   await expect(page.locator('#share-note')).toContainText('red room.hdr');

@@ -3,7 +3,7 @@ import { createScene, type Scene } from '@glanz/scene';
 import { expect, test } from 'vitest';
 import { applyPose, posedScene } from '../src/viewer/pose';
 
-/** Two parts, a lamp and an image. */
+/** Two parts, a light and an image. */
 function model(): Scene {
   const scene = createScene('model');
   const at = (x: number) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1];
@@ -18,7 +18,7 @@ function model(): Scene {
     { name: 'a', mesh: 0, material: 0, transform: at(0) },
     { name: 'b', mesh: 1, material: 0, transform: at(1) },
   ];
-  scene.lights = [{ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 1, position: [0, 1, 0] }];
+  scene.lights = [{ type: 'point', name: 'light', color: [1, 1, 1], intensity: 1, position: [0, 1, 0] }];
   scene.images = [{ name: 'image', width: 1, height: 1, data: Uint8Array.of(1, 2, 3, 4) }];
   return scene;
 }

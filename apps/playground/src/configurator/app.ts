@@ -68,7 +68,7 @@ export class Configurator {
       ...(scale === null ? {} : { pixelRatio: number(scale, 0.05, 2, 1) }),
     });
     byId('count').textContent = `One of ${new Intl.NumberFormat('en').format(combinations())} buttons.`;
-    this.#tell();
+    this.#showConfiguration();
     this.#wire();
   }
 
@@ -87,11 +87,11 @@ export class Configurator {
     page.#stage.dataset['ready'] = '';
   }
 
-  /** Shows another button and tells what the change has cost. */
+  /** Shows another button and how long the change took. */
   choose(configuration: Configuration, feature?: FeatureName): void {
     const asked = performance.now();
     this.#configuration = configuration;
-    this.#tell();
+    this.#showConfiguration();
     history.replaceState(null, '', `#${orderCode(configuration)}`);
     const title = feature
       ? `${CATALOGUE[feature].title}: ${chosen(configuration, feature).title}`
@@ -141,7 +141,7 @@ export class Configurator {
     });
   }
 
-  #tell(): void {
+  #showConfiguration(): void {
     const code = orderCode(this.#configuration);
     this.#form.show(this.#configuration);
     byId('sentence').textContent = sentence(this.#configuration);

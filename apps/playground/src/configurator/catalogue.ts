@@ -179,7 +179,7 @@ export const chosen = (configuration: Configuration, feature: FeatureName): Choi
 export const usual = (): Configuration =>
   Object.fromEntries(FEATURES.map((feature) => [feature, choicesOf(feature)[0]?.code ?? ''])) as Configuration;
 
-/** Whether a feature has anything to say about a button: a panel that is not there has no finish. */
+/** Whether a feature has anything to say about a button: a missing panel has no finish. */
 export const applies = (configuration: Configuration, feature: FeatureName): boolean =>
   feature !== 'panel' || configuration.mounting !== 'N';
 

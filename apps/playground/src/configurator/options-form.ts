@@ -39,18 +39,18 @@ function option(feature: FeatureName, { code, title, swatch, icon }: Choice): HT
 
 /** All features as groups of radio buttons, so that arrows and Tab work as everywhere. */
 export class OptionsForm {
-  readonly #groups = new Map<FeatureName, { readonly set: HTMLFieldSetElement; readonly told: HTMLElement }>();
+  readonly #groups = new Map<FeatureName, { readonly set: HTMLFieldSetElement; readonly choiceLabel: HTMLElement }>();
 
   constructor(form: HTMLFormElement, onChoose: (feature: FeatureName, code: string) => void) {
     for (const feature of FEATURES) {
-      const told = element('span', { 'aria-hidden': 'true' });
+      const choiceLabel = element('span', { 'aria-hidden': 'true' });
       const set = element(
         'fieldset',
         { 'data-feature': feature },
-        element('legend', {}, CATALOGUE[feature].title, told),
+        element('legend', {}, CATALOGUE[feature].title, choiceLabel),
         element('div', { class: 'choices' }, ...choicesOf(feature).map((choice) => option(feature, choice))),
       );
-      this.#groups.set(feature, { set, told });
+      this.#groups.set(feature, { set, choiceLabel });
       form.append(set);
     }
     form.addEventListener('change', (event) => {
@@ -61,11 +61,11 @@ export class OptionsForm {
   }
 
   show(configuration: Configuration): void {
-    for (const [feature, { set, told }] of this.#groups) {
+    for (const [feature, { set, choiceLabel }] of this.#groups) {
       const input = set.querySelector<HTMLInputElement>(`#${feature}-${configuration[feature]}`);
       if (input) input.checked = true;
       set.disabled = !applies(configuration, feature);
-      told.textContent = set.disabled ? '' : chosen(configuration, feature).title;
+      choiceLabel.textContent = set.disabled ? '' : chosen(configuration, feature).title;
     }
   }
 }

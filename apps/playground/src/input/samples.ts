@@ -2,7 +2,7 @@ import type { EnvironmentChoice } from '../state/state';
 
 interface Sample {
   readonly title: string;
-  /** The surroundings that suit it. */
+  /** The environment that suits it. */
   readonly environment: EnvironmentChoice;
 }
 

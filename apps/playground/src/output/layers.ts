@@ -24,7 +24,7 @@ export const LAYER_TITLES: Readonly<Record<Layer, string>> = {
 
 const NO_SURFACE = 0xffffffff;
 
-/** A colour that tells neighbouring numbers apart: hues a golden angle from each other. */
+/** A colour that distinguishes neighbouring numbers: hues a golden angle from each other. */
 function colourOf(id: number): readonly [number, number, number] {
   const hue = (id * 0.618033988749895) % 1;
   const light = 0.75 + 0.25 * ((id * 0.7548776662466927) % 1);

@@ -98,7 +98,7 @@ export async function imageAsExr(tracer: PathTracer): Promise<Uint8Array<ArrayBu
   });
 }
 
-/** Hands bytes to the browser's downloads. */
+/** Saves bytes as a download of the browser. */
 export function download(bytes: Uint8Array<ArrayBuffer> | string | Blob, name: string, type: string): void {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   const link = document.createElement('a');

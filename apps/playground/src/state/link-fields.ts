@@ -19,8 +19,8 @@ import {
  */
 type Read<T> = (value: unknown) => T | undefined;
 
-/** Entries of a list or a record at most. */
-const MOST_ENTRIES = 100_000;
+/** Maximum number of entries of a list or a record. */
+const MAX_ENTRIES = 100_000;
 const MOST_BOXES = 64;
 
 const isRecord = (value: unknown): value is Readonly<Record<string, unknown>> =>
@@ -56,9 +56,9 @@ const rgb =
   };
 
 const list =
-  <T>(read: Read<T>, most = MOST_ENTRIES): Read<readonly T[]> =>
+  <T>(read: Read<T>, max = MAX_ENTRIES): Read<readonly T[]> =>
   (value) => {
-    if (!Array.isArray(value) || value.length > most) return undefined;
+    if (!Array.isArray(value) || value.length > max) return undefined;
     const entries = value.map(read);
     return entries.some((entry) => entry === undefined) ? undefined : (entries as T[]);
   };
@@ -69,7 +69,7 @@ const record =
   (value) => {
     if (!isRecord(value)) return undefined;
     const entries = Object.entries(value)
-      .slice(0, MOST_ENTRIES)
+      .slice(0, MAX_ENTRIES)
       .map(([key, entry]) => [key, read(entry)] as const);
     return Object.fromEntries(entries.filter((entry): entry is readonly [string, T & {}] => entry[1] !== undefined));
   };

@@ -65,7 +65,7 @@ export async function encodeLink({ model, state, files }: LinkContent): Promise<
   return VERSION + text.replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
-/** Bytes of JSON in a link at most: a few letters can be packed that unpack to gigabytes. */
+/** Maximum bytes of JSON in a link: a few letters can unpack to gigabytes. */
 const MOST_BYTES = 4_194_304;
 
 /** @throws where the bytes are no deflated text, or too long a one. */

@@ -1,4 +1,4 @@
-/** Told after each change; `source` says what made it. */
+/** Called after each change; `source` says what made it. */
 export type Listener<S> = (next: S, before: S, source: 'change' | 'undo' | 'redo' | 'load') => void;
 
 export interface ChangeOptions {

@@ -15,9 +15,9 @@ export interface Context {
   readonly environments: Environments;
   /** The model that is shown; panels are made after the first one. */
   readonly opened: () => Opened;
-  /** Told when another model is shown. */
+  /** Calls the listener when another model is shown. */
   readonly onModel: (listener: () => void) => void;
-  /** Told when an image file for the environment was opened. */
+  /** Calls the listener when an image file for the environment was opened. */
   readonly onEnvironmentFile: (listener: () => void) => void;
   readonly onStatus: (listener: (status: SessionStatus) => void) => void;
   readonly openFiles: (files: ReadonlyMap<string, File>) => void;

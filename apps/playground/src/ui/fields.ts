@@ -45,7 +45,7 @@ function fieldRow<T>(
   ...controls: HTMLElement[]
 ): {
   readonly element: HTMLElement;
-  readonly told: (value: T) => void;
+  readonly noteValue: (value: T) => void;
   readonly setInitial: (value: T | undefined) => void;
 } {
   const reset = element('button', {
@@ -64,7 +64,7 @@ function fieldRow<T>(
     row.classList.toggle('changed', changed);
     reset.tabIndex = changed ? 0 : -1;
   };
-  const told = (value: T) => {
+  const noteValue = (value: T) => {
     last = value;
     mark();
   };
@@ -75,7 +75,7 @@ function fieldRow<T>(
   });
   return {
     element: row,
-    told,
+    noteValue,
     setInitial: (value) => {
       start = value;
       mark();
@@ -83,7 +83,7 @@ function fieldRow<T>(
   };
 }
 
-/** As few digits as tell values apart. */
+/** As few digits as distinguish values. */
 const tidy = (value: number) => String(Number(value.toPrecision(4)));
 
 /** A slider and a box for the number. */
@@ -124,7 +124,7 @@ export function sliderField(options: SliderOptions): Field<number> {
     if (except !== box) box.value = text;
     slider.style.setProperty('--at', `${100 * toPlace(v)}%`);
     slider.setAttribute('aria-valuetext', unit ? `${text} ${unit}` : text);
-    row.told(v);
+    row.noteValue(v);
   };
   const row = fieldRow(options, show, slider, box);
   slider.addEventListener('input', () => {
@@ -171,13 +171,13 @@ export function colourField(options: Common<Rgb>): Field<Rgb> {
   const show = (rgb: Rgb) => {
     input.value = toHex(rgb);
     code.textContent = input.value;
-    row.told(rgb);
+    row.noteValue(rgb);
   };
   const row = fieldRow(options, show, input, code);
   input.addEventListener('input', () => {
     const rgb = fromHex(input.value);
     code.textContent = input.value;
-    row.told(rgb);
+    row.noteValue(rgb);
     onInput(rgb);
   });
   show(value);
@@ -190,11 +190,11 @@ export function checkField(options: Common<boolean>): Field<boolean> {
   const input = element('input', { type: 'checkbox', id });
   const show = (checked: boolean) => {
     input.checked = checked;
-    row.told(checked);
+    row.noteValue(checked);
   };
   const row = fieldRow(options, show, input);
   input.addEventListener('change', () => {
-    row.told(input.checked);
+    row.noteValue(input.checked);
     onInput(input.checked);
   });
   show(value);

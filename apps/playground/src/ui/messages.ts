@@ -12,7 +12,7 @@ export interface Message {
 
 /** A note goes by itself, an error stays until it is closed or something succeeds. */
 const NOTE_MS = 9000;
-const MOST = 3;
+const MAX_MESSAGES = 3;
 
 /** One-line messages over the image. */
 export class Messages {
@@ -43,7 +43,7 @@ export class Messages {
     // The same trouble again is not more trouble.
     for (const other of this.#region.children) if (other.querySelector('p')?.textContent === text) other.remove();
     this.#region.append(message);
-    while (this.#region.children.length > MOST) this.#region.firstElementChild?.remove();
+    while (this.#region.children.length > MAX_MESSAGES) this.#region.firstElementChild?.remove();
     if (kind === 'note' && !stays) setTimeout(() => message.remove(), NOTE_MS);
   }
 

@@ -3,7 +3,7 @@ import { element } from './elements';
 import { sliderField, type Field } from './fields';
 import { icon } from './icons';
 
-/** A page that slept goes on where it was. */
+/** A page that slept continues where it stopped. */
 const LONGEST_STEP = 0.25;
 
 /** Plays the chosen animation, or shows a moment of it: a button and a slider. */

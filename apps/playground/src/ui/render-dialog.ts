@@ -21,7 +21,7 @@ export interface RenderRequest {
   /** Pixels. */
   readonly width: number;
   readonly height: number;
-  /** Samples per pixel, the most where `noise` is given. */
+  /** Samples per pixel; the maximum where `noise` is given. */
   readonly samples: number;
   /** Relative noise to reach. */
   readonly noise: number | undefined;

@@ -102,10 +102,10 @@ export function renderPanel(context: Context): HTMLElement[] {
         session.raysPerSecond,
       );
   };
-  let told = 0;
+  let lastShown = 0;
   onStatus(({ state }) => {
-    if ((state === 'rendering' || state === 'moving') && performance.now() - told < 500) return;
-    told = performance.now();
+    if ((state === 'rendering' || state === 'moving') && performance.now() - lastShown < 500) return;
+    lastShown = performance.now();
     showStatistics();
   });
   onModel(showStatistics);

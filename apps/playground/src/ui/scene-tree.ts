@@ -1,4 +1,4 @@
-import { wornMaterial } from '../viewer/worn';
+import { assignedMaterial } from '../viewer/assigned-material';
 import type { Context } from './context';
 import { element } from './elements';
 import { toHex } from './fields';
@@ -107,7 +107,7 @@ export class SceneTree {
       element('span', {}, name),
     );
     part.addEventListener('click', () =>
-      selection.choose({ material: wornMaterial(opened().scene, index, store.state.variant), instance: index }),
+      selection.choose({ material: assignedMaterial(opened().scene, index, store.state.variant), instance: index }),
     );
     const eye = element('button', {
       type: 'button',

@@ -58,7 +58,7 @@ const shown = (key: string) =>
     )
     .join(' ');
 
-/** Fills the dialog that tells all keys. */
+/** Fills the dialog that lists all keys. */
 export function fillKeysDialog(dialog: HTMLDialogElement, shortcuts: readonly Shortcut[]): void {
   const close = element('button', { type: 'button', class: 'quiet square', 'aria-label': 'Close' }, '×');
   close.addEventListener('click', () => dialog.close());

@@ -15,7 +15,7 @@ const ROWS = 8;
  * Draws a small lat-long image so that the front (+Z) is in the middle, a few rows a step; it is seen with the last
  * one.
  *
- * @param wanted Whether to go on: another one may have taken its place.
+ * @param wanted Whether to continue: another one may have taken its place.
  */
 export function* latLongSteps(
   canvas: HTMLCanvasElement,

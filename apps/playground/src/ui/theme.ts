@@ -3,7 +3,7 @@ import { byId } from './elements';
 const THEMES = ['', 'light', 'dark'] as const;
 const TITLES = { '': 'as the system', light: 'light', dark: 'dark' } as const;
 
-/** The button that goes through the themes; the choice stays in this browser. */
+/** The button that cycles through the themes; the choice stays in this browser. */
 export function wireTheme(): void {
   const button = byId<HTMLButtonElement>('theme');
   const root = document.documentElement;

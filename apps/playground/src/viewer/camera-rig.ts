@@ -21,7 +21,7 @@ const damping = () => (matchMedia('(prefers-reduced-motion: reduce)').matches ? 
 /** The field of view that the state asks for, radians. */
 const yfovOf = ({ lens: { fov } }: State) => (fov === null ? undefined : (fov * Math.PI) / 180);
 const framing = (aspect: number, yfov: number | undefined) => ({ aspect, ...(yfov === undefined ? {} : { yfov }) });
-/** What the camera that a state begins with hangs on, besides the scene. */
+/** What the camera that a state begins with depends on, besides the scene. */
 const keyOf = ({ camera, lens: { fov } }: State, aspect: number) => [camera, fov, aspect].join();
 
 const viewOf = ({ theta, phi, radius, target, zoom = 1 }: Orbit): OrbitView => ({
@@ -39,20 +39,19 @@ const orbitOf = ({ target, distance, yaw, pitch, zoom }: OrbitView): Orbit => ({
   zoom,
 });
 
-/** The camera that the state asks for, what hands and buttons do to it, and the one that follows it smoothly. */
+/** The camera that the state requests, its controls, and the one that follows it smoothly. */
 export class CameraRig {
   readonly #store: Store<State>;
   readonly #aspect: () => number;
   #scene: Scene | undefined;
   #bounds: SceneBounds | undefined;
   /**
-   * Goes where the state says. Made from the camera that the state begins with, which it is told again where that
-   * changes.
+   * Moves to the camera of the state. Made from the camera that the state begins with, and again where that changes.
    */
   #follower: OrbitRig | undefined;
   #followed: Camera | undefined;
   /**
-   * The camera that a state begins with, while what it hangs on stays: to frame a model one goes through its vertices.
+   * The camera that a state begins with, cached while what it depends on stays: framing iterates over all vertices.
    */
   #known: { readonly key: string; readonly scene: Scene; readonly camera: Camera } | undefined;
 
@@ -101,7 +100,7 @@ export class CameraRig {
     return this.#follower?.moving ?? false;
   }
 
-  /** Lets it go on by so many seconds. @returns Whether it has moved. */
+  /** Advances it by so many seconds. @returns Whether it has moved. */
   step(seconds: number): boolean {
     return this.#follower?.step(seconds) ?? false;
   }
@@ -138,7 +137,7 @@ export class CameraRig {
     );
   }
 
-  /** Turns, shifts or zooms by hand. */
+  /** Orbits, pans or zooms by user input. */
   move(change: (rig: OrbitRig) => void): void {
     if (!this.#scene) return;
     const rig = this.#orbit(this.#store.state, this.#scene);

@@ -1,6 +1,6 @@
 import type { Scale } from '../state/state';
 
-/** Film pixels at most: beyond, a sample of a large window takes too long to be called interactive. */
+/** Maximum film pixels: beyond, a sample of a large window takes too long to be called interactive. */
 const MAX_PIXELS = 8_294_400;
 
 /** Size of the film for a stage of so many CSS pixels. */

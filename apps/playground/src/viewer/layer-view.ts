@@ -2,9 +2,9 @@ import type { PathTracer } from '@glanz/renderer';
 import { toneMapPixels } from '@glanz/tonemap';
 import { layerImage, type Layer } from '../output/layers';
 
-/** A layer is read again whenever there are so many times more samples, up to the most that layers average. */
+/** A layer is read again whenever there are so many times more samples, up to the maximum that layers average. */
 const GROWTH = 4;
-const MOST = 64;
+const MAX_SAMPLES = 64;
 
 /** What the layer view looks at. */
 export interface LayerSource {
@@ -48,7 +48,7 @@ export class LayerView {
   }
 
   progressed(samples: number): void {
-    if (samples < this.#next || this.#next > MOST) return;
+    if (samples < this.#next || this.#next > MAX_SAMPLES) return;
     this.#next = samples * GROWTH;
     void this.#read();
   }

@@ -1,7 +1,7 @@
 import type { Camera } from '@glanz/scene';
 import type { Lens } from '../state/state';
 
-/** Height of the sensor that focal lengths are told for: full frame, 36 × 24 mm. */
+/** Height of the sensor that focal lengths are given for: full frame, 36 × 24 mm. */
 const SENSOR_HEIGHT = 0.024;
 
 const DEGREE = Math.PI / 180;

@@ -13,7 +13,7 @@ export class RayMeter {
     return this.#perSecond;
   }
 
-  /** The work has been interrupted: what was counted until now tells nothing of speed. */
+  /** The work has been interrupted: what was counted until now does not measure the speed. */
   interrupt(): void {
     this.#begin = undefined;
   }

@@ -7,7 +7,7 @@ import type { Layer } from '../output/layers';
 import { LayerView } from './layer-view';
 import { RayMeter } from './ray-meter';
 
-/** What a session tells the page, often. */
+/** What a session often reports to the page. */
 export interface SessionStatus {
   readonly state: ViewerState;
   readonly samples: number;
@@ -53,7 +53,7 @@ export interface Shown {
 /** Milliseconds that a frame may take while something moves, and after a movement until the image is refined. */
 const PREVIEW_MS = 12;
 const SETTLE_MS = 180;
-/** Most edges of a path in a preview. */
+/** Maximum number of edges of a path in a preview. */
 const PREVIEW_DEPTH = 4;
 
 /** The viewer's engine as the page drives it: its state comes from the store, and what it does goes into one status. */
@@ -77,7 +77,7 @@ export class Session {
     canvas: HTMLCanvasElement,
     layer: HTMLCanvasElement,
     view: SessionView,
-    hands: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
+    camera: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
     events: SessionEvents,
   ) {
     this.#canvas = canvas;
@@ -100,15 +100,15 @@ export class Session {
       },
       PREVIEW_MS,
       {
-        ...hands,
-        state: () => this.#tell(),
+        ...camera,
+        state: () => this.#emitStatus(),
         sample: ({ samplesPerSecond, remainingMs, noise: left, active }) => {
           this.#progress = { samplesPerSecond, remainingMs, noise: left, active };
           if (samplesPerSecond > 0) this.#sampleMs = 1000 / samplesPerSecond;
           if (this.#engine.tracer) void this.#rays.measure(this.#engine.tracer);
-          this.#tell();
+          this.#emitStatus();
         },
-        converged: () => this.#tell(),
+        converged: () => this.#emitStatus(),
         drawn: (_preview, _milliseconds, size) => this.#drawn(size),
         restarted: () => {
           this.#rays.interrupt();
@@ -116,7 +116,7 @@ export class Session {
           this.#canvas.dataset['restarts'] = String(Number(this.#canvas.dataset['restarts'] ?? 0) + 1);
         },
         error: (error, retry) => this.#events.onError(error, retry),
-        lost: () => this.#tell(),
+        lost: () => this.#emitStatus(),
         restored: (_milliseconds, { samples }) => this.#events.onRecovered(samples),
       },
     );
@@ -133,7 +133,7 @@ export class Session {
   }
 
   /**
-   * @param hands What moves the camera.
+   * @param camera Moves the camera.
    * @param layer Lies over the image's canvas and shows layers of the film.
    * @throws {DeviceError} without WebGPU.
    */
@@ -141,10 +141,10 @@ export class Session {
     canvas: HTMLCanvasElement,
     layer: HTMLCanvasElement,
     view: SessionView,
-    hands: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
+    camera: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
     events: SessionEvents,
   ): Promise<Session> {
-    const session = new Session(canvas, layer, view, hands, events);
+    const session = new Session(canvas, layer, view, camera, events);
     await session.#engine.ready;
     return session;
   }
@@ -199,7 +199,7 @@ export class Session {
   }
 
   /**
-   * Shows another scene. Until it is ready the former one stays, and it stays for good where this fails.
+   * Shows another scene. Until it is ready, and where this fails, the former one stays.
    *
    * @param source Asked whenever a tracer is made, also after a loss of the device, so it gives the scene as edited by
    * then.
@@ -228,7 +228,7 @@ export class Session {
     if (samples !== before.samples || settings.noise !== before.noise) this.#engine.restart();
     this.#layers.choose(layer);
     if (toneMap !== before.toneMap || exposure !== before.exposure) await this.#engine.setView({ toneMap, exposure });
-    this.#tell();
+    this.#emitStatus();
   }
 
   setPaused(paused: boolean): void {
@@ -247,7 +247,7 @@ export class Session {
     this.#engine.touch();
   }
 
-  /** Most edges of a path. */
+  /** Maximum number of edges of a path. */
   setDepth(depth: number): void {
     this.#askedAt ??= performance.now();
     this.#engine.settings.maxDepth = depth;
@@ -263,7 +263,7 @@ export class Session {
    * Applies an edit between two frames: a GPU that is slow skips edits rather than images.
    *
    * @param key Of several edits with one key that wait, the last one counts; the fields of their values add up.
-   * @returns When it has taken effect, or has failed and was told.
+   * @returns When it has taken effect, or has failed and was reported.
    */
   async edit(
     key: string,
@@ -301,7 +301,7 @@ export class Session {
     if (this.#engine.state !== 'recovering') this.#events.onError(error);
   };
 
-  #tell(): void {
+  #emitStatus(): void {
     const { state, current, tracer, settings } = this.#engine;
     if (state !== 'rendering') this.#progress = { ...this.#progress, samplesPerSecond: 0, remainingMs: 0 };
     this.#events.onStatus({

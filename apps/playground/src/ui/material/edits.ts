@@ -61,7 +61,7 @@ export function editSlot(
   );
 }
 
-/** The image that drives a parameter: put there by hand, or brought by the model. */
+/** The image that drives a parameter: set by the user, or part of the model. */
 export function slotState(
   state: State,
   material: Material,

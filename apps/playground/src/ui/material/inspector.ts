@@ -172,7 +172,7 @@ export class MaterialInspector {
     const edit = store.state.materials[this.#index] ?? {};
     const changed = new Set<string>();
     for (const { name, group, field, refreshSlot } of this.#rows) {
-      // The control under the user's hand is as it should be.
+      // The control that the user is moving already shows its value.
       if (field && !field.element.contains(document.activeElement))
         field.set(currentValue(store.state, material, this.#index, name) as never);
       else if (field && !Object.hasOwn(edit, name)) field.set(loadedValue(material, name) as never);

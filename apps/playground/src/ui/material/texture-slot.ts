@@ -29,7 +29,7 @@ export function textureSlot(
     { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Put an image on this parameter' },
     icon('image'),
   );
-  const told = element('span', { class: 'slot-name' });
+  const imageLabel = element('span', { class: 'slot-name' });
   const take = async (file: File) => {
     try {
       const image = await readImage(file);
@@ -72,13 +72,13 @@ export function textureSlot(
     void take(file);
   });
   row.querySelector('label, .label')?.after(button);
-  row.append(picker, told);
+  row.append(picker, imageLabel);
   return () => {
     const slot = slotState(store.state, material, index, name);
     button.setAttribute('aria-pressed', String(slot !== undefined));
     button.setAttribute('aria-label', slot ? `Remove the texture of ${title}` : `Texture for ${title}`);
     button.title = slot ? 'Remove the image' : 'Put an image on this parameter';
-    told.hidden = slot === undefined;
-    told.textContent = slot ? `× ${slot.name}` : '';
+    imageLabel.hidden = slot === undefined;
+    imageLabel.textContent = slot ? `× ${slot.name}` : '';
   };
 }

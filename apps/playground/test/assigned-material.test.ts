@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
 import type { Scene } from '@glanz/scene';
-import { chosenInVariant, wornMaterial } from '../src/viewer/worn';
+import { chosenInVariant, assignedMaterial } from '../src/viewer/assigned-material';
 
 const transform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const scene: Pick<Scene, 'instances' | 'variants'> = {
@@ -11,16 +11,16 @@ const scene: Pick<Scene, 'instances' | 'variants'> = {
   ],
 };
 
-it('a part wears its material, or that of the variant where it has one', () => {
-  expect([null, 'night', 'storm', 'gone'].map((variant) => wornMaterial(scene, 1, variant))).toEqual([0, 1, 2, 0]);
-  expect([null, 'night'].map((variant) => wornMaterial(scene, 0, variant))).toEqual([3, 3]);
+it('a part has its material, or that of the variant where it has one', () => {
+  expect([null, 'night', 'storm', 'gone'].map((variant) => assignedMaterial(scene, 1, variant))).toEqual([0, 1, 2, 0]);
+  expect([null, 'night'].map((variant) => assignedMaterial(scene, 0, variant))).toEqual([3, 3]);
 });
 
-it('what is chosen changes clothes with its part, and back', () => {
+it('the selection changes materials with its part, and back', () => {
   expect(chosenInVariant(scene, { material: 0, instance: 1 }, null, 'storm')).toEqual({ material: 2, instance: 1 });
   expect(chosenInVariant(scene, { material: 2 }, 'storm', 'night')).toEqual({ material: 1, instance: undefined });
   expect(chosenInVariant(scene, { material: 1, instance: 1 }, 'night', null)).toEqual({ material: 0, instance: 1 });
-  // The sole has no variants, and a material that is not worn stays chosen.
+  // The sole has no variants, and a material that no part has stays selected.
   expect(chosenInVariant(scene, { material: 3, instance: 0 }, null, 'night')).toEqual({ material: 3, instance: 0 });
   expect(chosenInVariant(scene, { material: 2 }, null, 'night')).toEqual({ material: 2, instance: undefined });
 });

@@ -1,8 +1,8 @@
 import type { Scene } from '@glanz/scene';
 import type { Chosen } from '../selection';
 
-/** The material that a part wears in a variant; null: as made. */
-export function wornMaterial(
+/** The material that a part has in a variant; null: its own. */
+export function assignedMaterial(
   { instances, variants = [] }: Pick<Scene, 'instances' | 'variants'>,
   instance: number,
   variant: string | null,
@@ -13,8 +13,8 @@ export function wornMaterial(
 }
 
 /**
- * What is chosen after a change of variant: the material that the chosen part, or the first that wore the chosen
- * material, wears now.
+ * The selection after a change of variant: the material that the selected part, or the first part with the selected
+ * material, has now.
  */
 export function chosenInVariant(
   scene: Pick<Scene, 'instances' | 'variants'>,
@@ -22,9 +22,9 @@ export function chosenInVariant(
   before: string | null,
   next: string | null,
 ): Chosen {
-  const part = instance ?? scene.instances.findIndex((_, i) => wornMaterial(scene, i, before) === material);
-  // A material that nothing wears is chosen for its own sake.
-  return part < 0 || wornMaterial(scene, part, before) !== material
+  const part = instance ?? scene.instances.findIndex((_, i) => assignedMaterial(scene, i, before) === material);
+  // A material that no part has stays selected.
+  return part < 0 || assignedMaterial(scene, part, before) !== material
     ? { material, instance }
-    : { material: wornMaterial(scene, part, next), instance };
+    : { material: assignedMaterial(scene, part, next), instance };
 }

@@ -116,10 +116,10 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   await page.getByRole('button', { name: 'Play the animation' }).click();
   const seen = new Set<string>();
   await expect
-    .poll(async () => seen.add(await time.inputValue()).size, { message: 'the time goes on' })
+    .poll(async () => seen.add(await time.inputValue()).size, { message: 'the time advances' })
     .toBeGreaterThan(3);
   expect(Number(await dataOf(page, 'restarts'))).toBeGreaterThan(restarts + 3);
-  // It goes round: a stop just after it began again would show the sail at rest, which tells nothing, so it is played on
+  // It repeats: a stop just after it began again would show the sail at rest, which proves nothing, so it is played
   // until it stops later.
   let moment = 0;
   await expect(async () => {
@@ -142,7 +142,7 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
   }).toPass();
 });
 
-test('while a hand turns the model a small preview keeps up on the same canvas; the image in full takes over, and ends the same', async ({
+test('while the user turns the model a small preview keeps up on the same canvas; the image in full takes over, and ends the same', async ({
   page,
 }) => {
   await open(page, 'model=cornell-box&scale=0.25&samples=8&max-depth=3');
