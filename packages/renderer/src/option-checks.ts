@@ -72,6 +72,11 @@ export function checkInteriors({ materials }: Scene): void {
 }
 
 /** @throws {RenderError} `renderer/size` */
+export function checkRenderScale(scale: number): void {
+  if (!(typeof scale === 'number' && scale > 0 && scale <= 1))
+    throw new RenderError('renderer/size', `A render scale is above 0 and at most 1, not ${String(scale)}.`);
+}
+
 export function checkSize(width: number, height: number): void {
   if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
     throw new RenderError(

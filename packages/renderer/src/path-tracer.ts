@@ -11,7 +11,7 @@ import type { GpuScene } from './scene/gpu-scene';
 import { memoryReport } from './session/memory-report';
 import { readBuffer } from './storage/read-buffer';
 import type { Integrator } from './integrator/integrator';
-import { checkFirstSample, checkSize, resolveOptions, type TracerSettings } from './option-checks';
+import { checkFirstSample, checkRenderScale, checkSize, resolveOptions, type TracerSettings } from './option-checks';
 import type {
   FilmLayer,
   LightGroup,
@@ -116,10 +116,12 @@ export class PathTracer extends TracerEdits {
     return this.#editor.scene;
   }
 
+  /** Pixels of the image, and of what {@link read} returns: those that it was given, times {@link renderScale}. */
   get width(): number {
     return this.#session.film.width;
   }
 
+  /** See {@link width}. */
   get height(): number {
     return this.#session.film.height;
   }
@@ -150,7 +152,7 @@ export class PathTracer extends TracerEdits {
       memory: memoryReport(this.#memory, {
         pathsInFlight: this.#integrator.capacity,
         triangles,
-        pixels: this.#session.film.pixels,
+        pixels: this.#session.film.fullWidth * this.#session.film.fullHeight,
         texels: this.#gpuScene.texels,
       }),
       badSamples: this.#session.badSamples,
@@ -338,7 +340,7 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Changes the film's size and restarts it. The old film stays, with its samples, until the GPU has memory for the new
+   * Changes the film's size and restarts it, at a render scale of 1. The old film stays, with its samples, until the GPU has memory for the new
    * one. Of several calls that overlap the last one counts.
    *
    * @returns When the film has its new size.
@@ -349,6 +351,26 @@ export class PathTracer extends TracerEdits {
     this.#check();
     checkSize(width, height);
     await this.#edits.resize(width, height);
+    if (this.renderScale !== 1) this.setRenderScale(1);
+  }
+
+  /** See {@link setRenderScale}. */
+  get renderScale(): number {
+    return this.#session.film.scale;
+  }
+
+  /**
+   * Renders fewer pixels in the film's memory, for previews, and restarts the film. Takes effect at once: nothing is
+   * allocated, unlike with {@link resize}.
+   *
+   * @param scale Share of the width and height that the tracer was given, above 0 and at most 1.
+   * @throws {RenderError} `renderer/size`
+   */
+  setRenderScale(scale: number): void {
+    this.#check();
+    checkRenderScale(scale);
+    this.#session.renderScale = scale;
+    this.reset();
   }
 
   /** What lies under a pixel (whole or fractional coordinates from the upper left corner), found on the CPU. */

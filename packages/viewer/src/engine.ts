@@ -6,7 +6,7 @@ import { Edits } from './edits';
 import type { EngineHost, EngineSettings, Take, TracerCopy } from './engine-host';
 import { isAbort } from './errors';
 import type { ViewerState } from './events';
-import { FilmFit } from './film-fit';
+import { FilmFit, sameSize, scaledSize } from './film-fit';
 import { FilmKeeper } from './film-keeper';
 import { previewShare } from './handover';
 import { RememberingHierarchies } from './hierarchies';
@@ -38,8 +38,6 @@ export interface ShowOptions {
   /** Called when the tracer has taken the place of the former one, before its first frame. */
   readonly onTaken?: () => void;
 }
-
-const sameSize = (a: Size, b: Size) => a[0] === b[0] && a[1] === b[1];
 
 /**
  * Device, tracer and canvas: shows a small preview while something moves, refines the image when it rests, sleeps
@@ -516,14 +514,14 @@ export class Engine {
     this.#lastStep = now;
     const full = this.#full;
     const plan = this.#preview.plan(full[0] * full[1]);
-    const size = full.map((pixels) => Math.max(1, Math.round(pixels / plan.divisor))) as unknown as Size;
     const changed = stepped || this.#dirtyCamera || this.#edits.size > 0;
     if (stepped || this.#dirtyCamera) {
       // What stands still keeps its size: samples gather.
       await this.#fit(
         tracer,
-        size,
+        full,
         plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth,
+        1 / plan.divisor,
       );
       if (tracer !== this.#tracer || this.#destroyed) return;
       this.#dirtyCamera = false;
@@ -604,15 +602,15 @@ export class Engine {
    * Gives the film a size; where the GPU has no memory for it, the film keeps what it has. @returns Whether it was
    * restarted.
    */
-  async #fit(tracer: PathTracer, size: Size, depth: number): Promise<boolean> {
+  async #fit(tracer: PathTracer, size: Size, depth: number, scale = 1): Promise<boolean> {
     try {
-      const restarted = await this.#films.fit(tracer, size, depth);
-      if (sameSize(size, this.#film)) this.#smaller = false;
+      const restarted = await this.#films.fit(tracer, size, depth, scale);
+      if (scale === 1 && sameSize(size, this.#film)) this.#smaller = false;
       return restarted;
     } catch (error) {
       // A lost device refuses nothing: its successor may have memory for all of it.
       if (!this.#current(tracer) || (error as { code?: unknown }).code === 'renderer/device-lost') throw error;
-      this.#films.refuse(tracer, size);
+      this.#films.refuse(tracer, scaledSize(size, scale));
       // Once: smaller ones are tried until one fits.
       if (!this.#smaller) this.#host.error(error);
       this.#smaller = true;

@@ -11,6 +11,12 @@ const LEAST_PIXELS = 16;
  */
 const [RETRY_MS, MOST_RETRY_MS] = [4_000, 256_000];
 
+export const sameSize = (one: Size, other: Size) => one[0] === other[0] && one[1] === other[1];
+
+/** A size at a render scale, as the tracer rounds it. */
+export const scaledSize = (size: Size, scale: number) =>
+  size.map((side) => Math.max(1, Math.round(side * scale))) as unknown as Size;
+
 /** Whether one size is the other one scaled, and rounded. */
 const isScaled = (one: Size, other: Size) => Math.abs((other[0] * one[1]) / one[0] - other[1]) < 1;
 
@@ -19,7 +25,8 @@ const isScaled = (one: Size, other: Size) => Math.abs((other[0] * one[1]) / one[
  * or another one is wanted.
  */
 export class FilmFit {
-  /** Depths that tracers have been given. */
+  /** Sizes and depths that tracers have been given. */
+  readonly #sizes = new WeakMap<PathTracer, Size>();
   readonly #depths = new WeakMap<PathTracer, number>();
   #mostPixels = Infinity;
   /** The size of the film there is, where no other one can be had. */
@@ -55,7 +62,7 @@ export class FilmFit {
    */
   async grow(tracer: PathTracer, size: Size): Promise<boolean> {
     try {
-      await tracer.resize(...size);
+      await this.#resize(tracer, size);
     } catch {
       this.#retryMs = Math.min(2 * this.#retryMs, MOST_RETRY_MS);
       return false;
@@ -66,24 +73,36 @@ export class FilmFit {
 
   /** Takes over a tracer as it was made. */
   adopt(tracer: PathTracer, depth: number): void {
+    this.#sizes.set(tracer, [tracer.width, tracer.height]);
     this.#depths.set(tracer, depth);
   }
 
   /**
-   * Gives a tracer a size in pixels and a depth of paths.
+   * Gives a tracer a size in pixels and a depth of paths. A film that has that size is scaled; one that has not, is
+   * made as small as the preview, for the size may be another one at the next frame.
    *
+   * @param scale Share of the width and height that is rendered.
    * @returns Whether its film was restarted.
    * @throws {DeviceError} where the GPU refuses the size. The film is what it was.
    */
-  async fit(tracer: PathTracer, size: Size, depth: number): Promise<boolean> {
-    const resized = tracer.width !== size[0] || tracer.height !== size[1];
-    if (resized) await tracer.resize(...size);
+  async fit(tracer: PathTracer, size: Size, depth: number, scale = 1): Promise<boolean> {
+    const pixels = scaledSize(size, scale);
+    const resized = !sameSize([tracer.width, tracer.height], pixels);
+    if (resized) {
+      if (sameSize(this.#sizes.get(tracer) ?? [0, 0], size)) tracer.setRenderScale(scale);
+      else await this.#resize(tracer, pixels);
+    }
     const deeper = this.#depths.get(tracer) !== depth;
     if (deeper) {
       tracer.setDepth(depth);
       this.#depths.set(tracer, depth);
     }
     return resized || deeper;
+  }
+
+  async #resize(tracer: PathTracer, size: Size): Promise<void> {
+    await tracer.resize(...size);
+    this.#sizes.set(tracer, size);
   }
 
   /** Notes that the GPU has refused a size: {@link sizeFor} is smaller from then on. */

@@ -5,16 +5,21 @@ import { FilmFit } from '../src/film-fit';
 type Size = readonly [number, number];
 
 /** A tracer with memory for so many pixels, or whose device is lost. */
-function tracerOf(size: Size, memory: { pixels: number; lost?: boolean }): PathTracer {
+function tracerOf(size: Size, memory: { pixels: number; lost?: boolean }, sizes?: Size[]): PathTracer {
+  let full = size;
   const tracer = {
     width: size[0],
     height: size[1],
     setDepth: () => undefined,
+    setRenderScale: (scale: number) =>
+      Object.assign(tracer, { width: Math.round(full[0] * scale), height: Math.round(full[1] * scale) }),
     resize: (width: number, height: number) => {
+      sizes?.push([width, height]);
       if (memory.lost) return Promise.reject(Object.assign(new Error('lost'), { code: 'renderer/device-lost' }));
       if (width * height > memory.pixels)
         return Promise.reject(Object.assign(new Error('full'), { code: 'renderer/out-of-memory' }));
       Object.assign(tracer, { width, height });
+      full = [width, height];
       return Promise.resolve();
     },
   };
@@ -70,6 +75,34 @@ describe('FilmFit', () => {
     const tracer = tracerOf([20, 13], memory);
     await expect(films.fit(tracer, [80, 50], 8)).rejects.toMatchObject({ code: 'renderer/device-lost' });
     expect(films.sizeFor([80, 50])).toEqual([80, 50]);
+  });
+
+  it('scales a film of the whole size for previews and back, without another film', async () => {
+    const films = new FilmFit();
+    const sizes: Size[] = [];
+    const tracer = tracerOf([120, 90], { pixels: 1e6 }, sizes);
+    films.adopt(tracer, 8);
+    for (const [scale, width, height] of [
+      [1 / 3, 40, 30],
+      [1 / 4, 30, 23],
+      [1, 120, 90],
+    ] as const) {
+      expect(await films.fit(tracer, [120, 90], 8, scale)).toBe(true);
+      expect(await films.fit(tracer, [120, 90], 8, scale)).toBe(false);
+      expect([tracer.width, tracer.height]).toEqual([width, height]);
+    }
+    expect(sizes).toEqual([]);
+    // While the image changes its size, its film is as small as the preview.
+    await films.fit(tracer, [200, 100], 8, 1 / 4);
+    await films.fit(tracer, [240, 100], 8, 1 / 4);
+    await films.fit(tracer, [240, 100], 8);
+    await films.fit(tracer, [240, 100], 8, 1 / 2);
+    expect(sizes).toEqual([
+      [50, 25],
+      [60, 25],
+      [240, 100],
+    ]);
+    expect([tracer.width, tracer.height]).toEqual([120, 50]);
   });
 
   it('grows when there is memory again, and tries less and less often before', async () => {

@@ -12,18 +12,20 @@ const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_norma
  * `film_head`, which `film_total` contains too. The first-hit features come when they are asked for.
  */
 export class Film {
-  readonly width: number;
-  readonly height: number;
+  /** Pixels that there is memory for. */
+  readonly fullWidth: number;
+  readonly fullHeight: number;
   /** Sums that are kept apart. */
   readonly planes: number;
   readonly #memory: GpuMemory;
   readonly #buffers = new Map<string, GPUBuffer>();
+  #scale = 1;
   #whole = false;
 
   constructor(memory: GpuMemory, width: number, height: number, planes: number) {
     this.#memory = memory;
-    this.width = width;
-    this.height = height;
+    this.fullWidth = width;
+    this.fullHeight = height;
     this.planes = planes;
     this.#make('film_block', 16 * planes);
     this.#make('film_total', 16 * planes);
@@ -31,6 +33,27 @@ export class Film {
     this.#make('beauty', 16);
     this.#make('film_pixels', 4);
     this.setPixels(undefined);
+  }
+
+  /** Share of the full width and height that is rendered. */
+  get scale(): number {
+    return this.#scale;
+  }
+
+  /** Renders fewer pixels in the same memory, 0 < scale ≤ 1. What was accumulated has to be cleared. */
+  set scale(scale: number) {
+    this.#scale = scale;
+    this.#whole = false;
+    this.setPixels(undefined);
+  }
+
+  /** Pixels that are rendered. */
+  get width(): number {
+    return Math.max(1, Math.round(this.fullWidth * this.#scale));
+  }
+
+  get height(): number {
+    return Math.max(1, Math.round(this.fullHeight * this.#scale));
   }
 
   /**
@@ -55,17 +78,25 @@ export class Film {
     return this.#buffers.get('beauty') as GPUBuffer;
   }
 
-  /** The buffer that a kernel binds under this name, if it is the film's. */
+  /** The buffer that a kernel binds under this name, if it is the film's. Only {@link bytes} of it are in use. */
   buffer(name: string): GPUBuffer | undefined {
     // A tile each 64 pixels, and those at the edges.
     if (name === 'film_noise' && !this.#buffers.has(name))
-      this.#make(name, (16 * Math.ceil(this.width / TILE) * Math.ceil(this.height / TILE)) / this.pixels);
+      this.#make(name, (16 * Math.ceil(this.fullWidth / TILE) * Math.ceil(this.fullHeight / TILE)) / this.#fullPixels);
     return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name, 16) : undefined);
+  }
+
+  /** Bytes of a buffer that the rendered pixels take: kernels see no more of it, nor do copies. */
+  bytes(buffer: GPUBuffer): number {
+    const { size } = buffer;
+    const whole = this.#scale === 1 || buffer === this.#buffers.get('film_noise');
+    return whole ? size : (size / this.#fullPixels) * this.pixels;
   }
 
   /** Copies the totals, which are the sums of the first chunk at this time, to `film_head`. */
   copyHead(encoder: GPUCommandEncoder): void {
-    encoder.copyBufferToBuffer(this.#buffers.get('film_total') as GPUBuffer, 0, this.head, 0, this.head.size);
+    const { head } = this;
+    encoder.copyBufferToBuffer(this.#buffers.get('film_total') as GPUBuffer, 0, head, 0, this.bytes(head));
   }
 
   /** `film_head`, made when it is first used. */
@@ -83,8 +114,10 @@ export class Film {
 
   /** Zeroes the sums. */
   clear(encoder: GPUCommandEncoder): void {
-    for (const name of ['film_block', 'film_total', 'film_moment', 'beauty'])
-      encoder.clearBuffer(this.#buffers.get(name) as GPUBuffer);
+    for (const name of ['film_block', 'film_total', 'film_moment', 'beauty']) {
+      const buffer = this.#buffers.get(name) as GPUBuffer;
+      encoder.clearBuffer(buffer, 0, this.bytes(buffer));
+    }
   }
 
   destroy(): void {
@@ -92,11 +125,15 @@ export class Film {
     this.#buffers.clear();
   }
 
+  get #fullPixels(): number {
+    return this.fullWidth * this.fullHeight;
+  }
+
   #make(name: string, bytesPerPixel: number): GPUBuffer {
     const label = name.startsWith('film') ? name.replace('_', ' ') : `film ${name.replace('feature_', '')}`;
     const buffer = this.#memory.buffer(
       label,
-      this.pixels * bytesPerPixel,
+      this.#fullPixels * bytesPerPixel,
       GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST,
     );
     this.#buffers.set(name, buffer);

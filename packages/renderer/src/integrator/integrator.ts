@@ -336,8 +336,13 @@ export class Integrator {
     if (!group) {
       const names = [...kernel.resources, ...kernel.sceneBindings.map(([binding]) => binding)];
       const entries = names.map((resource, binding) => {
-        const own = (this.#buffers as Record<string, GPUBuffer>)[resource] ?? this.#film.buffer(resource);
-        const found = own ? { buffer: own } : this.#scene.resource(resource);
+        const own = (this.#buffers as Record<string, GPUBuffer>)[resource];
+        const film = own ? undefined : this.#film.buffer(resource);
+        const found = own
+          ? { buffer: own }
+          : film
+            ? { buffer: film, size: this.#film.bytes(film) }
+            : this.#scene.resource(resource);
         if (!found)
           throw new DeviceError('renderer/gpu-error', `Kernel "${name}" wants "${resource}", which nothing provides.`);
         return { binding, resource: found };

@@ -114,7 +114,7 @@ export class EditSession {
   async resize(width: number, height: number): Promise<void> {
     const { device, film, integrator, memory, restart } = this.#host;
     const number = ++this.#resizes;
-    while (film.film.width !== width || film.film.height !== height) {
+    while (film.film.fullWidth !== width || film.film.fullHeight !== height) {
       const { planes } = integrator.kernels.features;
       const { result: next, verified } = inErrorScopes(
         device,
@@ -176,7 +176,7 @@ export class EditSession {
   /** Puts kernels in place, with the buffers that they need. @returns Whether they are still wanted. */
   async #use(kernels: KernelSet, wanted: () => boolean): Promise<boolean> {
     const { device, film, integrator, memory } = this.#host;
-    const { width, height, planes } = film.film;
+    const { fullWidth: width, fullHeight: height, planes } = film.film;
     const made: (() => void)[] = [];
     const discard = () => made.forEach((free) => free());
     const { result, verified } = inErrorScopes(device, 'the paths and the film of this edit', () => {
@@ -193,13 +193,17 @@ export class EditSession {
       }
     });
     await this.#hold(verified, discard);
-    const resized = film.film.width !== width || film.film.height !== height;
+    const resized = film.film.fullWidth !== width || film.film.fullHeight !== height;
     if (memory.destroyed || !wanted() || (result.next && resized)) {
       discard();
       return !memory.destroyed && wanted() ? this.#use(kernels, wanted) : false;
     }
     result.paths.use();
-    if (result.next) film.replace(result.next);
+    if (result.next) {
+      const { scale } = film.film;
+      film.replace(result.next);
+      if (scale !== 1) film.renderScale = scale;
+    }
     return true;
   }
 

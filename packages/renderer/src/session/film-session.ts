@@ -128,6 +128,12 @@ export class FilmSession {
     this.#generation++;
   }
 
+  /** Share of the film's width and height that is rendered, see `PathTracer.setRenderScale`. Restart afterwards. */
+  set renderScale(scale: number) {
+    this.#film.scale = scale;
+    this.#host.integrator.rebind();
+  }
+
   /** Puts another film in place of the one there is, which is freed. */
   replace(film: Film): void {
     this.#film.destroy();
@@ -332,10 +338,7 @@ export class FilmSession {
   /** The sums of a first chunk that is not whole, once the film has gone beyond it. @param sample The next one. */
   async #head(sample: number): Promise<Float32Array<ArrayBuffer> | undefined> {
     if (headSamples(this.#first) === 0 || sample < headEnd(this.#first)) return undefined;
-    return readFloats(
-      this.#host.device,
-      this.#headCopied ? this.#film.head : (this.#film.buffer('film_total') as GPUBuffer),
-    );
+    return this.#floats(this.#headCopied ? this.#film.head : (this.#film.buffer('film_total') as GPUBuffer));
   }
 
   async #measureNoise(): Promise<Float32Array> {
@@ -378,7 +381,11 @@ export class FilmSession {
   }
 
   #copy(...names: readonly string[]): Promise<Float32Array<ArrayBuffer>>[] {
-    return names.map((name) => readFloats(this.#host.device, this.#film.buffer(name) as GPUBuffer));
+    return names.map((name) => this.#floats(this.#film.buffer(name) as GPUBuffer));
+  }
+
+  #floats(buffer: GPUBuffer): Promise<Float32Array<ArrayBuffer>> {
+    return readFloats(this.#host.device, buffer, this.#film.bytes(buffer));
   }
 
   #count(counters: ArrayBuffer): void {
