@@ -31,7 +31,6 @@ const LATER = {
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
   './material-colors': 'glanz-viewer.colors.min.js',
-  '../film/film-data': 'glanz-viewer.film.min.js',
 };
 
 /** The same for modules of src/decoders, by their names there; of each, what it exports. */
@@ -86,9 +85,8 @@ const sources = (missing) => ({
 const beside = (files) => ({
   name: 'beside',
   setup(context) {
-    context.onResolve(
-      { filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors)$|\.\.\/film\/film-data$)/ },
-      ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
+    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors)$)/ }, ({ path }) =>
+      Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined,
     );
     context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) =>
       /[\\/]decoders[\\/]index\.ts$/.test(importer)
@@ -125,11 +123,7 @@ export async function buildSingleFile(folder, to) {
   // Their errors are of the same class.
   for (const [module, name] of Object.entries(LATER))
     names.push(
-      await write(
-        `export * from '${module.replace(/^\.\//, './src/').replace(/^\.\.\/film/, '../renderer/src/film')}';`,
-        name,
-        { '@glanz/wgsl/error': MAIN },
-      ),
+      await write(`export * from '${module.replace(/^\.\//, './src/')}';`, name, { '@glanz/wgsl/error': MAIN }),
     );
   for (const [module, { file, exports }] of Object.entries(DECODERS))
     names.push(

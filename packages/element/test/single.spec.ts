@@ -106,11 +106,8 @@ async function open(page: Page, path: string): Promise<{ readonly errors: string
   return { errors, workers };
 }
 
-/**
- * Files that were fetched for the image, each once. The one that copies the film's samples is fetched after it, when
- * they are copied for the first time.
- */
-const loaded = () => [...new Set(asked)].filter((path) => path !== '/glanz-viewer.film.min.js').sort();
+/** Files that were fetched, each once. */
+const loaded = () => [...new Set(asked)].sort();
 
 test('two lines of HTML show a model with a file of another origin, whose workers run', async ({ page }) => {
   const { errors, workers } = await open(page, '/');
