@@ -14,7 +14,7 @@ import type { Orbit, OrbitLimits, Vector } from './orbit-state';
 /** Metres: beyond, single precision, in which the GPU computes, has no digits left for a model. */
 const FAR = 1e12;
 /** Radians of a turn. */
-const MOST_TURN = 1e6;
+const MAX_TURN = 1e6;
 
 /** Lowest and highest value of each setting that is a number; those of the renderer's options are in its table. */
 const RANGES = {
@@ -24,7 +24,7 @@ const RANGES = {
   height: [1, 65_536],
   quality: [0, 1],
   environmentIntensity: [0, 1e9],
-  environmentRotation: [-MOST_TURN, MOST_TURN],
+  environmentRotation: [-MAX_TURN, MAX_TURN],
   exposure: [-64, 64],
   damping: [0, 60],
   autoRotate: [-1000, 1000],
@@ -100,7 +100,7 @@ export function checkSettings(options: ViewerOptions): void {
  * `viewer/camera`
  */
 export const checkedAmount = (value: unknown, what: string): number =>
-  number(value, what, -MOST_TURN, MOST_TURN, 'viewer/camera');
+  number(value, what, -MAX_TURN, MAX_TURN, 'viewer/camera');
 
 /** @throws {ViewerError} `viewer/camera` unless the value is three finite numbers of metres. */
 export function checkedPoint(value: unknown, what: string): Vector {
@@ -140,8 +140,8 @@ export function checkedOrbit(orbit: Partial<Orbit>): Partial<Orbit> {
     );
   const { theta, phi, radius, target, zoom } = orbit;
   return {
-    ...(theta === undefined ? {} : { theta: number(theta, 'theta', -MOST_TURN, MOST_TURN, 'viewer/camera') }),
-    ...(phi === undefined ? {} : { phi: number(phi, 'phi', -MOST_TURN, MOST_TURN, 'viewer/camera') }),
+    ...(theta === undefined ? {} : { theta: number(theta, 'theta', -MAX_TURN, MAX_TURN, 'viewer/camera') }),
+    ...(phi === undefined ? {} : { phi: number(phi, 'phi', -MAX_TURN, MAX_TURN, 'viewer/camera') }),
     ...(radius === undefined ? {} : { radius: number(radius, 'radius', 1 / FAR, FAR, 'viewer/camera') }),
     ...(target === undefined ? {} : { target: checkedPoint(target, 'target') }),
     ...(zoom === undefined ? {} : { zoom: checkedZoom(zoom) }),

@@ -8,7 +8,7 @@ import { isAbort } from './errors';
 import type { ViewerState } from './events';
 import { FilmFit, sameSize, scaledSize } from './film-fit';
 import { FilmKeeper } from './film-keeper';
-import { previewShare } from './handover';
+import { previewShare } from './crossfade';
 import { RememberingHierarchies } from './hierarchies';
 import { makeTracer } from './make-tracer';
 import { Preparation } from './preparation';
@@ -533,13 +533,13 @@ export class Engine {
     this.#edits.apply(() => this.#edited());
     if (changed) this.#restarted();
     const before = tracer.samples;
-    // In its full size it is the image already, and that gets as many samples as were asked for.
-    const most = sameSize([tracer.width, tracer.height], this.#full) ? this.#goal : Infinity;
-    if (before >= Math.min(PREVIEW_SAMPLES, most) && this.#fresh) return;
+    // In its full size it is the image already, and that gets the requested samples.
+    const max = sameSize([tracer.width, tracer.height], this.#full) ? this.#goal : Infinity;
+    if (before >= Math.min(PREVIEW_SAMPLES, max) && this.#fresh) return;
     const started = performance.now();
     let samples = before;
     for await (const progress of tracer.render({
-      samples: Math.min(before + plan.samples, Math.max(most, before)),
+      samples: Math.min(before + plan.samples, Math.max(max, before)),
       maxSubmitMs: PREVIEW_SUBMIT_MS,
     })) {
       ({ samples } = progress);

@@ -3,13 +3,13 @@ import type { PathTracer } from '@glanz/renderer';
 type Size = readonly [number, number];
 
 /** Pixels of a film below which a smaller one is not tried. */
-const LEAST_PIXELS = 16;
+const MIN_PIXELS = 16;
 
 /**
- * When a size that was refused is tried again, after the image is done: the first time, and at most. Doubled in
+ * When a refused size is tried again, after the image is done: the first delay and the maximum. Doubled in
  * between.
  */
-const [RETRY_MS, MOST_RETRY_MS] = [4_000, 256_000];
+const [RETRY_MS, MAX_RETRY_MS] = [4_000, 256_000];
 
 export const sameSize = (one: Size, other: Size) => one[0] === other[0] && one[1] === other[1];
 
@@ -28,7 +28,7 @@ export class FilmFit {
   /** Sizes and depths that tracers have been given. */
   readonly #sizes = new WeakMap<PathTracer, Size>();
   readonly #depths = new WeakMap<PathTracer, number>();
-  #mostPixels = Infinity;
+  #maxPixels = Infinity;
   /** The size of the film there is, where no other one can be had. */
   #only: Size | undefined;
   #retryMs = RETRY_MS;
@@ -41,7 +41,7 @@ export class FilmFit {
   /** The size of a film for an image: the image's own, or the largest of its shape that the GPU may have memory for. */
   sizeFor([width, height]: Size): Size {
     if (this.#only) return this.#only;
-    const scale = Math.sqrt(this.#mostPixels / (width * height));
+    const scale = Math.sqrt(this.#maxPixels / (width * height));
     return scale >= 1
       ? [width, height]
       : [Math.max(1, Math.floor(width * scale)), Math.max(1, Math.floor(height * scale))];
@@ -49,7 +49,7 @@ export class FilmFit {
 
   /** Tries whole sizes again: there is another scene, or another size of the image. */
   forget(): void {
-    this.#mostPixels = Infinity;
+    this.#maxPixels = Infinity;
     this.#only = undefined;
     this.#retryMs = RETRY_MS;
   }
@@ -64,7 +64,7 @@ export class FilmFit {
     try {
       await this.#resize(tracer, size);
     } catch {
-      this.#retryMs = Math.min(2 * this.#retryMs, MOST_RETRY_MS);
+      this.#retryMs = Math.min(2 * this.#retryMs, MAX_RETRY_MS);
       return false;
     }
     this.forget();
@@ -108,8 +108,8 @@ export class FilmFit {
   /** Notes that the GPU has refused a size: {@link sizeFor} is smaller from then on. */
   refuse(tracer: PathTracer, size: Size): void {
     const present: Size = [tracer.width, tracer.height];
-    this.#mostPixels = Math.floor((size[0] * size[1]) / 2);
+    this.#maxPixels = Math.floor((size[0] * size[1]) / 2);
     // The film there is does, where its shape is right and there is nothing between it and what was refused.
-    if (this.#mostPixels <= (isScaled(size, present) ? present[0] * present[1] : LEAST_PIXELS)) this.#only = present;
+    if (this.#maxPixels <= (isScaled(size, present) ? present[0] * present[1] : MIN_PIXELS)) this.#only = present;
   }
 }

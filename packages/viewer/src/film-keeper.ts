@@ -3,7 +3,7 @@ import type { FilmState, PathTracer } from '@glanz/renderer';
 /** Milliseconds between two copies at least. */
 const REST_MS = 3000;
 /** Bytes of a film whose copying would hold up a frame. */
-const MOST_BYTES = 134_217_728;
+const MAX_BYTES = 134_217_728;
 /** Bytes that a copied film takes for each of its pixels, besides its light groups; and for each of those. */
 const [PIXEL_BYTES, GROUP_BYTES] = [32, 32];
 
@@ -52,7 +52,7 @@ export class FilmKeeper {
     if (this.#saving) this.#doneMeanwhile = done;
     if (this.#saving || this.#refused || samples <= known) return;
     if (!done && (samples < 2 * known || this.#now() - this.#last < REST_MS)) return;
-    if (width * height * (PIXEL_BYTES + GROUP_BYTES * Math.max(1, lightGroups.length)) > MOST_BYTES) return;
+    if (width * height * (PIXEL_BYTES + GROUP_BYTES * Math.max(1, lightGroups.length)) > MAX_BYTES) return;
     void this.#save(tracer);
   }
 

@@ -1,4 +1,4 @@
-/** Pixels of the image at most: beyond, a sample of a large window takes too long to be called interactive. */
+/** Maximum pixels of the image: beyond, a sample of a large window takes too long to be called interactive. */
 const MAX_PIXELS = 4_194_304;
 /** Beyond two pixels of the screen to a CSS pixel eyes see no gain, but the GPU pays for it. */
 const MAX_RATIO = 2;

@@ -16,7 +16,7 @@ const COARSE = 4;
 /** How much longer frames of coarse previews may take. */
 const PATIENT = 2.5;
 /** Maximum samples of a preview's frame. */
-const MOST_SAMPLES = 8;
+const MAX_SAMPLES = 8;
 /** A step to a larger preview, or to more samples, is taken only where this share of the time suffices. */
 const CAUTION = 0.9;
 /** Frames that a size is kept before a larger one is tried. */
@@ -56,7 +56,7 @@ export class PreviewController {
       }
     }
     const spare = Math.floor((CAUTION * this.budget - fixed) / Math.max(1e-6, costOf(this.#divisor) - fixed));
-    return { divisor: this.#divisor, samples: Math.max(1, Math.min(MOST_SAMPLES, spare)) };
+    return { divisor: this.#divisor, samples: Math.max(1, Math.min(MAX_SAMPLES, spare)) };
   }
 
   /**

@@ -19,7 +19,7 @@ export interface RenderImageOptions {
   /** Pixels, whole numbers from 1. */
   readonly width: number;
   readonly height: number;
-  /** Samples per pixel; with `noise`, the most. */
+  /** Samples per pixel; with `noise`, the maximum. */
   readonly samples: number;
   /** Stop where this relative noise is reached; see `RenderOptions.noise` of the renderer. Default: none. */
   readonly noise?: number | undefined;
@@ -29,7 +29,7 @@ export interface RenderImageOptions {
   readonly signal?: AbortSignal | undefined;
 }
 
-/** Progress of a render that goes on until a number of samples or a noise target. */
+/** Progress of a render that runs until a number of samples or a noise target. */
 export const imageProgress = (
   samples: number,
   target: number,

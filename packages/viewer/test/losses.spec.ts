@@ -123,7 +123,7 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
       if (at > calls) continue;
       // By turns as drivers do it, and as somebody who destroys the device.
       const end = await attempt({ [point]: at }, tried % 3 === 2 ? 'destroyed' : 'unknown');
-      // How many frames a preview has hangs on the machine's speed: not every run gets so far.
+      // How many frames a preview has depends on the machine's speed: not every run gets so far.
       if (!end.lost) continue;
       tried++;
       const where = `${point} ${at} of ${calls}`;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { previewShare } from '../src/handover';
+import { previewShare } from '../src/crossfade';
 import { DIVISORS, PreviewController } from '../src/preview';
 
 /** Drives a controller by a GPU that needs `fixed` ms a frame and `nanoseconds` a path. */

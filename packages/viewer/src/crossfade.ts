@@ -1,7 +1,7 @@
 /** Samples of the large image after which nothing of the small one is left in it. */
 const GONE_AFTER = 32;
 /** More of the small image's samples do not count: it is blurred, however many there are. */
-const MOST_WORTH = 4;
+const MAX_WORTH = 4;
 
 /**
  * Share of the preview in what is shown while the large image gathers samples: as its samples weigh among all of
@@ -13,7 +13,7 @@ const MOST_WORTH = 4;
  */
 export function previewShare(samples: number, previewSamples: number, target: number): number {
   if (samples <= 0) return 1;
-  const worth = Math.min(previewSamples, MOST_WORTH);
+  const worth = Math.min(previewSamples, MAX_WORTH);
   const goneAfter = Math.min(GONE_AFTER, Math.max(1, target / 2));
   return (worth / (samples + worth)) * Math.max(0, 1 - samples / goneAfter);
 }
