@@ -239,8 +239,8 @@ function makeClass(): GlanzViewerConstructor {
         orbit: text('camera-orbit'),
         target: text('camera-target'),
         fieldOfView: text('field-of-view'),
-        least: text('min-camera-orbit'),
-        most: text('max-camera-orbit'),
+        min: text('min-camera-orbit'),
+        max: text('max-camera-orbit'),
       };
     }
 

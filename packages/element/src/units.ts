@@ -1,5 +1,5 @@
 /** Radians and metres beyond which a number says nothing of use. */
-const [MOST_TURN, FAR] = [1e6, 1e12];
+const [MAX_TURN, FAR] = [1e6, 1e12];
 
 /** Radians of an angle: `45deg`, `0.8rad`, `0.1turn`; degrees where no unit is given. `undefined` for anything else. */
 export function angle(text: string): number | undefined {
@@ -8,7 +8,7 @@ export function angle(text: string): number | undefined {
   const value = Number(match[1]);
   const unit = match[2]?.toLowerCase();
   const radians = unit === 'rad' ? value : unit === 'turn' ? value * 2 * Math.PI : (value * Math.PI) / 180;
-  return Math.abs(radians) <= MOST_TURN ? radians : undefined;
+  return Math.abs(radians) <= MAX_TURN ? radians : undefined;
 }
 
 /** A length: metres of `2m`, `20cm`, `5mm`, or a share of `105%`. */
@@ -52,7 +52,7 @@ export function readOrbit(
   };
 }
 
-/** Least or most of an orbit: `undefined` where a part is `auto` or missing. */
+/** Minimum or maximum of an orbit: `undefined` where a part is `auto` or missing. */
 export function readLimit(
   text: string | null,
   basis: OrbitBasis,

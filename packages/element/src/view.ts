@@ -7,8 +7,8 @@ export interface ViewAttributes {
   readonly orbit: string | null;
   readonly target: string | null;
   readonly fieldOfView: string | null;
-  readonly least: string | null;
-  readonly most: string | null;
+  readonly min: string | null;
+  readonly max: string | null;
 }
 
 type Point = readonly [number, number, number];
@@ -45,16 +45,12 @@ export function orbitOf(scene: Scene, aspect: number, attributes: ViewAttributes
 /** The limits that the attributes set. */
 export function limitsOf(scene: Scene, aspect: number, attributes: ViewAttributes): OrbitLimits {
   const { basis } = frameOf(scene, aspect, attributes);
-  const [least, most] = [readLimit(attributes.least, basis), readLimit(attributes.most, basis)];
-  const range = (low: number | undefined, high: number | undefined) =>
-    low === undefined && high === undefined
+  const [low, high] = [readLimit(attributes.min, basis), readLimit(attributes.max, basis)];
+  const range = (from: number | undefined, to: number | undefined) =>
+    from === undefined && to === undefined
       ? undefined
-      : ([low ?? -Infinity, Math.max(low ?? -Infinity, high ?? Infinity)] as const);
-  const [theta, phi, radius] = [
-    range(least.theta, most.theta),
-    range(least.phi, most.phi),
-    range(least.radius, most.radius),
-  ];
+      : ([from ?? -Infinity, Math.max(from ?? -Infinity, to ?? Infinity)] as const);
+  const [theta, phi, radius] = [range(low.theta, high.theta), range(low.phi, high.phi), range(low.radius, high.radius)];
   return { ...(theta ? { theta } : {}), ...(phi ? { phi } : {}), ...(radius ? { radius } : {}) };
 }
 

@@ -20,7 +20,7 @@ function box(): Scene {
   return scene;
 }
 
-const nothing = { orbit: null, target: null, fieldOfView: null, least: null, most: null };
+const nothing = { orbit: null, target: null, fieldOfView: null, min: null, max: null };
 const eyeOf = (camera: { readonly transform: ArrayLike<number> }) => Array.from(camera.transform).slice(12, 15);
 
 describe('views by attributes', () => {
@@ -51,7 +51,7 @@ describe('views by attributes', () => {
 
   it('sets limits', () => {
     expect(limitsOf(box(), 1, nothing)).toEqual({});
-    expect(limitsOf(box(), 1, { ...nothing, least: '-45deg auto 2m', most: '45deg 90deg auto' })).toEqual({
+    expect(limitsOf(box(), 1, { ...nothing, min: '-45deg auto 2m', max: '45deg 90deg auto' })).toEqual({
       theta: [-Math.PI / 4, Math.PI / 4],
       phi: [-Infinity, Math.PI / 2],
       radius: [2, Infinity],
