@@ -42,7 +42,7 @@ export interface ListedGpu {
   readonly name: string;
   /** Graphics interface below WebGPU, e.g. `vulkan`. */
   readonly backend: string;
-  /** Name and version of the driver, as far as it tells. */
+  /** Name and version of the driver, as far as it is reported. */
   readonly driver: string;
   readonly software: boolean;
 }

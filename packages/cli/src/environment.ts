@@ -16,7 +16,7 @@ export const isEnvironmentFile = (choice: string | undefined): choice is string 
   choice !== undefined && choice !== 'studio' && choice !== 'none';
 
 /**
- * The surroundings that `--env` asks for; without a word the model's own, or the studio.
+ * The environment that `--env` requests; by default the model's own, or the studio.
  *
  * @param signal Stops reading the file.
  * @throws {CliError} `cli/input` if the file cannot be read

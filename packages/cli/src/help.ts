@@ -19,7 +19,7 @@ const COMMANDS = {
   info: `LOOKING
   glanz info MODEL [--scene SCENE] [--json]
 
-  Tells what a model holds, without rendering it: triangles, parts, size,
+  Prints what a model holds, without rendering it: triangles, parts, size,
   materials, images, cameras, lights, variants, animations, memory, what the
   file says of itself, and every warning.
 `,
@@ -27,8 +27,8 @@ const COMMANDS = {
   glanz bench [MODEL] [--size WxH] [--samples N] [--runs N] [--gpu NAME]
               [--json]
 
-  Renders a scene of its own (49 balls, 1.6 million triangles), or a model, and
-  tells how long a sample takes, and how long it takes until the first is there.
+  Renders a built-in scene (49 balls, 1.6 million triangles), or a model, and
+  prints how long a sample takes, and how long it takes until the first.
       --size WxH        Pixels. Default 512x512.
       --samples N       Of each run. Default 64.
       --runs N          The middle one counts. Default 3.
@@ -80,9 +80,9 @@ DESCRIPTION
 
   Progress goes to stderr; stdout has what --json, info and bench print. Ctrl-C
   writes what has been accumulated so far; a second Ctrl-C ends at once. When
-  the GPU is lost, the image goes on on a new device, with the same pixels.
+  the GPU is lost, rendering continues on a new device, with the same pixels.
 
-PICTURE
+IMAGE
   -o, --output FILE     Where to write; the ending decides the format. May be
                         given several times. Default: the model's name with
                         .png, in the current folder.
@@ -106,9 +106,9 @@ PICTURE
                         Default neutral: base colours stay what they are.
 
 LIGHT AND VIEW
-      --env FILE        Surroundings: a lat-long .hdr or .exr, "studio" (default
+      --env FILE        Environment: a lat-long .hdr or .exr, "studio" (default
                         unless the model brings its own) or "none".
-      --env-rotation D  Turn them about the vertical axis by D degrees,
+      --env-rotation D  Turn it about the vertical axis by D degrees,
                         counter-clockwise seen from above.
       --env-intensity F Multiply their light.
       --camera CAMERA   A camera of the model by name or number (from 0), or
@@ -141,7 +141,7 @@ MODEL
       --variant NAME    Look of KHR_materials_variants, by name or number; "all"
                         for each. May be given several times.
 
-MANY PICTURES
+MANY IMAGES
   Each variant is rendered from each view; what is the same stays on the GPU.
       --view VIEW       front, back, left, right, top, bottom, front-right,
                         front-left, back-right, back-left, iso; or an azimuth
@@ -164,16 +164,16 @@ MANY PICTURES
                         beside the images, .glanz-journal.jsonl, knows.
       --checkpoint FILE Keep the samples in FILE while rendering, at most every
                         30 seconds, and when it is interrupted. The same
-                        command goes on from there; --samples may be raised. A
+                        command continues from there; --samples may be raised. A
                         file that belongs to another image is refused. Deleted
                         when the image is written. May hold {model}, {variant}
                         and {view}.
       --gpu NAME        Given several times, each GPU takes the next image
-                        when it is done with one. A GPU that is lost for good
+                        when it is done with one. A GPU that cannot recover
                         leaves its image, with the samples so far, to the rest.
       --output-root DIR Let the batch file write below this folder. Default: the
                         folder that the batch file is in.
-  An image that fails does not keep the others; the exit status is that of the
+  An image that fails does not stop the others; the exit status is that of the
   first failure. With Ctrl-C, unfinished images are not written.
 
 ${COMMANDS.convert}
@@ -194,7 +194,7 @@ MACHINE
 
 EXIT STATUS
   0 done · 1 rendering failed · 2 wrong usage · 3 a file cannot be read or is
-  broken · 4 a file cannot be written · 5 no usable GPU, or lost for good ·
+  broken · 4 a file cannot be written · 5 no usable GPU, or it was lost ·
   70 a fault of glanz · 130 ended by Ctrl-C after writing what there was (143 by
   SIGTERM, 129 by SIGHUP)
 

@@ -2,9 +2,9 @@ import { readFile, stat } from 'node:fs/promises';
 import { resolve } from 'node:path';
 import { CliError } from './errors';
 
-/** Most bytes of an input file: what Node reads in one piece. */
+/** Maximum bytes of an input file: what Node reads in one piece. */
 export const MAX_INPUT_BYTES = 2 ** 31 - 1;
-/** Most bytes of a file of settings: a batch, a camera. */
+/** Maximum bytes of a file of settings: a batch, a camera. */
 export const MAX_SETTINGS_BYTES = 2 ** 26;
 
 const reason = (cause: unknown) => {

@@ -15,7 +15,7 @@ export interface PoseOptions {
   readonly time?: number;
 }
 
-/** Everything that an image, or a matrix of variants and views, can be told, checked. */
+/** Options of an image, or of a matrix of variants and views, checked. */
 export interface RenderCommandOptions {
   readonly model: string;
   readonly pose: PoseOptions;
@@ -135,10 +135,10 @@ export function presentNames<T extends RenderValues>(values: T, warn: (text: str
 }
 
 /** What the command line said of images, not yet checked. */
-export type RenderValues = Omit<Partial<ReturnType<typeof parseOptions>['values']>, (typeof NOT_OF_PICTURES)[number]>;
+export type RenderValues = Omit<Partial<ReturnType<typeof parseOptions>['values']>, (typeof NOT_OF_IMAGES)[number]>;
 
 /** Options of the command, not of an image. */
-const NOT_OF_PICTURES = [
+const NOT_OF_IMAGES = [
   'json',
   'quiet',
   'list-gpus',
@@ -154,7 +154,7 @@ const NOT_OF_PICTURES = [
 /** Options that an image of a batch may have. */
 export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> = Object.fromEntries(
   Object.entries(OPTIONS).flatMap(([name, option]) =>
-    (NOT_OF_PICTURES as readonly string[]).includes(name)
+    (NOT_OF_IMAGES as readonly string[]).includes(name)
       ? []
       : [[name, option.type === 'boolean' ? 'boolean' : 'multiple' in option ? 'list' : 'text']],
   ),

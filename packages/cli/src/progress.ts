@@ -90,7 +90,7 @@ export class ProgressReporter {
     this.#stage = 'render';
     const plain = ` ${this.prefix}${figures}`;
     const width = Math.min(30, this.#io.columns() - plain.length - 2);
-    // Towards a noise target, time is what tells how far it is.
+    // Towards a noise target, time measures the progress.
     const share =
       progress.noise === undefined ? samples / targetSamples : elapsedMs / Math.max(elapsedMs + remainingMs, 1);
     const filled = Math.round(Math.min(share, 1) * width);

@@ -90,8 +90,8 @@ export async function cameraOf(view: View, scene: Scene, aspect: number, cwd: st
 }
 
 /**
- * The camera of a step: it looks at the middle of the scene from as far as the step needs that needs most, so that
- * nothing grows or shrinks on the way round.
+ * The camera of a step: it looks at the middle of the scene from the largest distance that any step needs, so that
+ * nothing grows or shrinks between steps.
  */
 function turntableCamera(
   { name, step, count, elevation }: View & { kind: 'turntable' },

@@ -199,7 +199,7 @@ describe('batch files', () => {
     expect(err.trim().split('\n').length).toBe(1);
   });
 
-  it('what fails is told, the others are made, and the exit status is that of the failure', async () => {
+  it('what fails is reported, the others are made, and the exit status is that of the failure', async () => {
     const cwd = folder();
     writeFileSync(
       join(cwd, 'b.json'),
@@ -254,7 +254,7 @@ describe('resuming', () => {
     expect(code).toBe(130);
     expect(JSON.parse(out)).toMatchObject({ ok: false, interrupted: 'SIGINT', total: 6 });
     expect(images(cwd)).toEqual(['m-red-front.png', 'm-red-iso.png']);
-    expect(err).toContain('2 of 6 images in 0:00; --resume goes on');
+    expect(err).toContain('2 of 6 images in 0:00; --resume continues');
     const rest = await run([...argv, '--resume'], cwd, { scene });
     expect([rest.code, made(rest.out), images(cwd).length]).toEqual([0, 4, 6]);
     expect(readFileSync(join(cwd, '.glanz-journal.jsonl'), 'utf8').trim().split('\n').length).toBe(6);

@@ -12,7 +12,7 @@ describe('lookAt', () => {
     // From +X: right is −Z, back is +X.
     close(lookAt([5, 0, 0], [0, 0, 0], [0, 1, 0]), [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 0, 0, 1]);
   });
-  it('finds a right hand even when looking straight down', () => {
+  it('finds a right axis even when looking straight down', () => {
     const m = lookAt([0, 3, 0], [0, 0, 0], [0, 1, 0]);
     close(m.slice(8, 11), [0, 1, 0]);
     expect(Math.hypot(...m.slice(0, 3))).toBeCloseTo(1, 12);

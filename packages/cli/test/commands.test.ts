@@ -57,7 +57,7 @@ describe('info', () => {
     });
   });
 
-  it('of what is not there', async () => {
+  it('of what is missing', async () => {
     expect(await run(['info', 'gone.glb'], folder())).toMatchObject({
       code: 3,
       err: expect.stringContaining('[cli/input]'),
@@ -67,7 +67,7 @@ describe('info', () => {
 });
 
 describe('bench', () => {
-  it('measures runs on an empty film each, and tells the middle', async () => {
+  it('measures runs on an empty film each, and reports the median', async () => {
     const { code, out, created, destroyed } = await run(
       ['bench', '--size', '8x4', '--samples', '3', '--runs', '3', '--json', '-q'],
       '.',

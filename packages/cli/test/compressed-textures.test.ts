@@ -4,13 +4,13 @@ import type { Scene } from '@glanz/scene';
 import { expect, test } from 'vitest';
 import { nodeBackend } from '../src/backend';
 
-const lamp = fileURLToPath(
+const model = fileURLToPath(
   new URL('../../../../shared/assets/AnisotropyBarnLamp-KTX2-Basisu/AnisotropyBarnLamp.gltf', import.meta.url),
 );
-const note = existsSync(lamp) ? '' : ' (skipped: ../shared/assets is not there)';
+const note = existsSync(model) ? '' : ' (skipped: ../shared/assets is missing)';
 
 test.skipIf(note !== '')(
-  `a lamp with images in KTX2: packed where the device reads blocks, else unpacked, and the same image${note}`,
+  `a model with images in KTX2: packed where the device reads blocks, else unpacked, and the same image${note}`,
   { timeout: 300_000 },
   async () => {
     const backend = nodeBackend();
@@ -20,14 +20,14 @@ test.skipIf(note !== '')(
     expect(await backend.compressedFormats(device)).toEqual([]);
     const formats = ['bc7-rgba-unorm'] as const;
     let asked = 0;
-    const packed = await backend.loadModel(lamp, signal, {}, async () => (asked++, formats));
+    const packed = await backend.loadModel(model, signal, {}, async () => (asked++, formats));
     expect(asked).toBe(1);
     // One is made of two of the file's, and so is not in blocks.
     expect(
       packed.images.filter(({ compressed }) => compressed && formats.some((format) => format === compressed.format))
         .length,
     ).toBe(packed.images.length - 1);
-    const plain = await backend.loadModel(lamp, signal);
+    const plain = await backend.loadModel(model, signal);
     expect(plain.images.some((image) => image.compressed)).toBe(false);
     // Asked for, the pixels are there, and the same.
     expect(Buffer.compare(packed.images.at(-1)!.data as Uint8Array, plain.images.at(-1)!.data as Uint8Array)).toBe(0);

@@ -75,7 +75,7 @@ describe('the command line', () => {
   });
 });
 
-it('paths are those of the folder the user is in, and every file is told', async () => {
+it('paths are those of the folder the user is in, and every file is reported', async () => {
   const cwd = temporaryFolder({ 'part.step': 'x', 'map.json': '{}' });
   const { io: own, err, out } = io(cwd);
   const asked: unknown[] = [];
@@ -100,7 +100,7 @@ it('paths are those of the folder the user is in, and every file is told', async
   expect(out).toEqual([]);
 });
 
-it('files that are not there', async () => {
+it('files that are missing', async () => {
   const cwd = temporaryFolder({ 'part.step': 'x' });
   await expect(convertCommand(parseConvert(['none.step']), io(cwd).io)).rejects.toMatchObject({ code: 'cli/input' });
   await expect(

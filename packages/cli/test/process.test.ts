@@ -258,77 +258,73 @@ it('no memory for a layer of an EXR: exit status 1, no file, and nothing on stdo
   });
 });
 
-it(
-  'a batch that is killed goes on where it was, and its images are those of runs of their own',
-  { timeout: 600_000 },
-  async () => {
-    const cwd = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true, variants: true }) });
-    const quality = ['--gpu', 'software', '--size', '24x16', '--samples', '4', '--max-depth', '3', '--seed', '5'];
-    writeFileSync(join(cwd, 'hero.json'), '{"position":[1,0.5,3],"target":[0,0,0],"lens_radius":0.05}');
-    const argv = [
-      'render',
-      'shoe.glb',
-      '--variant',
-      'all',
-      '--view',
-      'front',
-      '--view',
-      'iso',
-      '--view',
-      '30,20',
-      '--view',
-      'hero.json',
-      '-o',
-      'out/{variant}-{view}.png',
-      '--bits',
-      '16',
-      '--json',
-      ...quality,
-    ];
-    // Killed without warning while the third image is made.
-    let sent = false;
-    const killed = await start(argv, cwd, (text, child) => {
-      if (!sent && /\[4\/12\] render/.test(text)) sent = child.kill('SIGKILL');
-    });
-    expect(killed.signal, killed.err).toBe('SIGKILL');
-    const before = readdirSync(join(cwd, 'out')).filter((name) => name.endsWith('.png'));
-    expect(before.length).toBeGreaterThanOrEqual(3);
-    expect(before.length).toBeLessThan(12);
-    const stamps = new Map(before.map((name) => [name, statSync(join(cwd, 'out', name)).mtimeMs]));
-    const { code, out, err } = await start([...argv, '--resume'], cwd);
-    expect(code, err).toBe(0);
-    const result = JSON.parse(out) as { total: number; skipped: number; images: { files: { path: string }[] }[] };
-    expect([result.total, result.skipped + result.images.length]).toEqual([12, 12]);
-    // At most the one whose journal line was not yet written is made twice.
-    expect(result.skipped).toBeGreaterThanOrEqual(before.length - 1);
-    const files = readdirSync(join(cwd, 'out'))
-      .filter((name) => name.endsWith('.png'))
-      .sort();
-    expect(files).toEqual(
-      ['red', 'green', 'deep_blue']
-        .flatMap((variant) => ['front', 'iso', '30_20', 'hero'].map((view) => `${variant}-${view}.png`))
-        .sort(),
+it('a batch that is killed resumes, and its images are those of runs of their own', { timeout: 600_000 }, async () => {
+  const cwd = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true, variants: true }) });
+  const quality = ['--gpu', 'software', '--size', '24x16', '--samples', '4', '--max-depth', '3', '--seed', '5'];
+  writeFileSync(join(cwd, 'hero.json'), '{"position":[1,0.5,3],"target":[0,0,0],"lens_radius":0.05}');
+  const argv = [
+    'render',
+    'shoe.glb',
+    '--variant',
+    'all',
+    '--view',
+    'front',
+    '--view',
+    'iso',
+    '--view',
+    '30,20',
+    '--view',
+    'hero.json',
+    '-o',
+    'out/{variant}-{view}.png',
+    '--bits',
+    '16',
+    '--json',
+    ...quality,
+  ];
+  // Killed without warning while the third image is made.
+  let sent = false;
+  const killed = await start(argv, cwd, (text, child) => {
+    if (!sent && /\[4\/12\] render/.test(text)) sent = child.kill('SIGKILL');
+  });
+  expect(killed.signal, killed.err).toBe('SIGKILL');
+  const before = readdirSync(join(cwd, 'out')).filter((name) => name.endsWith('.png'));
+  expect(before.length).toBeGreaterThanOrEqual(3);
+  expect(before.length).toBeLessThan(12);
+  const stamps = new Map(before.map((name) => [name, statSync(join(cwd, 'out', name)).mtimeMs]));
+  const { code, out, err } = await start([...argv, '--resume'], cwd);
+  expect(code, err).toBe(0);
+  const result = JSON.parse(out) as { total: number; skipped: number; images: { files: { path: string }[] }[] };
+  expect([result.total, result.skipped + result.images.length]).toEqual([12, 12]);
+  // At most the one whose journal line was not yet written is made twice.
+  expect(result.skipped).toBeGreaterThanOrEqual(before.length - 1);
+  const files = readdirSync(join(cwd, 'out'))
+    .filter((name) => name.endsWith('.png'))
+    .sort();
+  expect(files).toEqual(
+    ['red', 'green', 'deep_blue']
+      .flatMap((variant) => ['front', 'iso', '30_20', 'hero'].map((view) => `${variant}-${view}.png`))
+      .sort(),
+  );
+  expect(
+    files.filter((name) => stamps.get(name) === statSync(join(cwd, 'out', name)).mtimeMs).length,
+  ).toBeGreaterThanOrEqual(before.length - 1);
+  for (const [variant, view, name] of [
+    ['deep blue', 'hero.json', 'deep_blue-hero'],
+    ['green', 'iso', 'green-iso'],
+    ['red', 'front', 'red-front'],
+  ] as const) {
+    const alone = await start(
+      ['render', 'shoe.glb', '--variant', variant, '--view', view, '-o', 'alone.png', '--bits', '16', ...quality],
+      cwd,
     );
+    expect(alone.code, alone.err).toBe(0);
     expect(
-      files.filter((name) => stamps.get(name) === statSync(join(cwd, 'out', name)).mtimeMs).length,
-    ).toBeGreaterThanOrEqual(before.length - 1);
-    for (const [variant, view, name] of [
-      ['deep blue', 'hero.json', 'deep_blue-hero'],
-      ['green', 'iso', 'green-iso'],
-      ['red', 'front', 'red-front'],
-    ] as const) {
-      const alone = await start(
-        ['render', 'shoe.glb', '--variant', variant, '--view', view, '-o', 'alone.png', '--bits', '16', ...quality],
-        cwd,
-      );
-      expect(alone.code, alone.err).toBe(0);
-      expect(
-        Buffer.compare(readFileSync(join(cwd, 'alone.png')), readFileSync(join(cwd, 'out', `${name}.png`))),
-        name,
-      ).toBe(0);
-    }
-  },
-);
+      Buffer.compare(readFileSync(join(cwd, 'alone.png')), readFileSync(join(cwd, 'out', `${name}.png`))),
+      name,
+    ).toBe(0);
+  }
+});
 
 it('serve answers with the files of its folder and ends with SIGINT', async () => {
   // The program lies in a folder of its own; the playground beside it.

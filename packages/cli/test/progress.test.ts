@@ -75,7 +75,7 @@ describe('on a terminal', () => {
   });
 });
 
-it('towards a noise target it tells the noise, and time makes the bar', () => {
+it('towards a noise target it shows the noise, and time makes the bar', () => {
   const io = fakeIo('.', { interactive: true, columns: 100 });
   const progress = new ProgressReporter(io, false);
   progress.samples({

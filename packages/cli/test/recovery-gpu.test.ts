@@ -57,7 +57,7 @@ describe('the files are the same bit for bit', () => {
     }
   });
 
-  it('when it goes on from a checkpoint towards a noise target, lost again while the next one is copied', async () => {
+  it('when it continues from a checkpoint towards a noise target, lost again while the next one is copied', async () => {
     const argv = [
       'red.glb',
       '-o',
@@ -110,7 +110,7 @@ describe('the files are the same bit for bit', () => {
     expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
   });
 
-  it('when one of two GPUs is gone for good: its image goes on on the other from its last checkpoint', async () => {
+  it('when one of two GPUs cannot be recovered: the other continues its image from the last checkpoint', async () => {
     const argv = [
       'shoe.glb',
       '--variant',
@@ -148,7 +148,7 @@ describe('the files are the same bit for bit', () => {
     expect(same(bytes(cwd, names), bytes(whole, names))).toEqual([0, 0, 0, 0]);
   });
 
-  it('when the GPU is gone for good, and a later run goes on from --checkpoint', async () => {
+  it('when the GPU cannot be recovered, and a later run continues from --checkpoint', async () => {
     const argv = ['red.glb', ...OUTPUTS, ...QUALITY, '--samples', '300'];
     const whole = folder();
     expect((await glanz(argv, whole)).code).toBe(0);
@@ -166,7 +166,7 @@ describe('the files are the same bit for bit', () => {
       false,
     ]);
     expect(first.err).toMatch(
-      /\d+ samples are in "x\.ckpt": the same command goes on from there\. \[cli\/gpu-lost\]\n$/,
+      /\d+ samples are in "x\.ckpt": the same command continues from there\. \[cli\/gpu-lost\]\n$/,
     );
     // The wrong scene is refused, whatever its settings.
     const wrong = await glanz(

@@ -51,7 +51,7 @@ const ticking = (cwd: string) => {
 };
 
 describe('a render whose GPU is lost', () => {
-  it('takes a new device and goes on from the last checkpoint', async () => {
+  it('takes a new device and continues from the last checkpoint', async () => {
     const cwd = folder();
     const { io, tick } = ticking(cwd);
     const seen: number[] = [];
@@ -178,13 +178,13 @@ describe('a render whose GPU is lost', () => {
     const { code, err, out } = await run(['render', 'm.glb', ...SIZE, '--json'], cwd, fake, io);
     expect([code, opened.length, io.waits.filter((ms) => ms !== 100)]).toEqual([5, 1, [300, 1000, 3000, 10_000]]);
     expect(last(err)).toBe(
-      'glanz: The GPU "Fake only" was lost and gives no new device after 5 attempts (The GPU refused a device). Often it ran out of memory, its driver crashed or was updated, or the machine was asleep: close other programs that use it, try a smaller --size, update the driver, or choose another one with --gpu (see glanz --list-gpus; --gpu software uses the processor). With --checkpoint FILE, a later run goes on from the last samples. [cli/gpu-lost]',
+      'glanz: The GPU "Fake only" was lost and gives no new device after 5 attempts (The GPU refused a device). Often it ran out of memory, its driver crashed or was updated, or the machine was asleep: close other programs that use it, try a smaller --size, update the driver, or choose another one with --gpu (see glanz --list-gpus; --gpu software uses the processor). With --checkpoint FILE, a later run continues from the last samples. [cli/gpu-lost]',
     );
     expect(JSON.parse(out)).toMatchObject({ ok: false, error: { code: 'cli/gpu-lost' } });
     expect(images(cwd)).toEqual([]);
   });
 
-  it('again and again without progress: 5; with progress it goes on for as long as it takes', async () => {
+  it('again and again without progress: 5; with progress it continues for as long as it takes', async () => {
     const cwd = folder();
     const always = gpus({
       onSample(sample, _name, _nth, device) {
@@ -287,7 +287,7 @@ describe('a batch', () => {
   const scene = { ...triangleScene(), variants: ['a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'] };
   const EIGHT = ['render', 'm.glb', '--size', '4x4', '--samples', '20', '--variant', 'all', '--json'];
 
-  it('whose GPU is lost in one image goes on, and makes all', async () => {
+  it('whose GPU is lost in one image continues, and makes all', async () => {
     const cwd = folder();
     let made = 0;
     const { fake, opened } = gpus({
@@ -308,7 +308,7 @@ describe('a batch', () => {
   it.each([
     ['gives no device any more', (name: string, before: number) => name === 'bad' && before > 0],
     ['loses every device', () => false],
-  ])('a lane whose GPU %s hands its image and its samples to the other', async (_what, refuses) => {
+  ])('a lane whose GPU %s passes its image and its samples to the other', async (_what, refuses) => {
     const cwd = folder();
     const { io, tick } = ticking(cwd);
     const { fake } = gpus({
@@ -333,7 +333,7 @@ describe('a batch', () => {
       .filter((samples) => samples > 0);
     expect(resumed.length).toBe(1);
     expect(edits.filter(([what, to]) => what === 'film' && to === resumed[0]).length).toBeGreaterThanOrEqual(1);
-    expect(err).toContain('The other GPUs go on with its images.');
+    expect(err).toContain('The other GPUs take over its images.');
   });
 
   it('one that never was there leaves everything to the other', async () => {
@@ -422,18 +422,18 @@ describe('--checkpoint FILE', () => {
     return run([...argv, ...more], cwd, { onSample: (s) => s === at + 1 && io.interrupt() }, io);
   };
 
-  it('keeps the samples of a run that is stopped, and a later run goes on from there; then the file is gone', async () => {
+  it('keeps the samples of a run that is stopped, and a later run continues from there; then the file is gone', async () => {
     const cwd = folder();
     const first = await stopped(cwd);
     expect([first.code, images(cwd), existsSync(join(cwd, 'm.ckpt'))]).toEqual([130, ['m.png'], true]);
-    expect(first.err).toContain('m.ckpt: 40 samples; the same command goes on from there');
+    expect(first.err).toContain('m.ckpt: 40 samples; the same command continues from there');
     const second = await run(argv, cwd);
     expect([second.code, second.edits]).toEqual([0, [['film', 40]]]);
     expect(JSON.parse(second.out)).toMatchObject({ samples: 100, resumedSamples: 40 });
     expect(readdirSync(cwd).sort()).toEqual(['m.glb', 'm.png']);
   });
 
-  it('is written while rendering goes on, rarely, and whole at any time', async () => {
+  it('is written while rendering continues, rarely, and whole at any time', async () => {
     const cwd = folder();
     const io = fakeIo(cwd);
     const long = argv.map((word) => (word === '100' ? '1500' : word));
@@ -463,7 +463,8 @@ describe('--checkpoint FILE', () => {
     });
     const { code, err } = await run(argv, cwd, fake, io);
     const [, samples] =
-      /(\d+) samples are in "m\.ckpt": the same command goes on from there\. \[cli\/gpu-lost\]$/.exec(last(err)) ?? [];
+      /(\d+) samples are in "m\.ckpt": the same command continues from there\. \[cli\/gpu-lost\]$/.exec(last(err)) ??
+      [];
     expect([code, Number(samples) > 40], err).toEqual([5, true]);
     expect((await run(argv, cwd)).edits).toEqual([['film', Number(samples)]]);
   });

@@ -276,7 +276,7 @@ describe('writing', () => {
     expect((await run(['render', 'm.glb', ...SIZE, '-q'], folder())).err).toBe('');
   });
 
-  it('hands size, depth, seed and camera on', async () => {
+  it('passes size, depth, seed and camera on', async () => {
     const { created } = await run(
       ['render', 'm.glb', ...SIZE, '--max-depth', '2', '--seed', '9', '--camera', '{"position":[0,0,9],"fov":20}'],
       folder(),
@@ -286,7 +286,7 @@ describe('writing', () => {
   });
 });
 
-describe('surroundings', () => {
+describe('environment', () => {
   it('the studio without a word, the model’s own if it has any, none if asked', async () => {
     const own = { ...triangleScene(), environment: { type: 'constant' as const, radiance: [1, 2, 3] as const } };
     expect((await run(['render', 'm.glb', ...SIZE], folder())).created[0]?.scene.environment).toMatchObject({
@@ -420,7 +420,7 @@ describe('errors are one line with a code, and an exit status', () => {
     expect((await run(['render', 'm.glb', '--size', '0x0'], '.')).code).toBe(2);
     expect((await run(['render', 'm.glb', ...SIZE, '--camera', 'back'], folder())).code).toBe(2);
   });
-  it('a model that is not there: 3', async () => {
+  it('a missing model: 3', async () => {
     const { code, err } = await run(['render', 'gone.glb'], folder());
     expect([code, err]).toEqual([3, 'glanz: Cannot read the model "gone.glb": there is no such file. [cli/input]\n']);
     expect((await run(['render', '.'], folder())).err).toContain('it is a folder');

@@ -91,7 +91,7 @@ it(
         direction: [Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e)],
       });
     };
-    // Another view and another size come first, as while a hand turns the model.
+    // Another view and another size come first, as while the user turns the model.
     const tracer = await PathTracer.create(
       device,
       { ...scene, environment: studioEnvironment() },

@@ -8,7 +8,7 @@ import type { ReportOptions } from '../options';
 import { checkWritable } from '../output/write';
 import { jsonLine, visible } from '../visible';
 
-/** Everything `glanz convert` can be told, checked. */
+/** Options of `glanz convert`, checked. */
 export interface ConvertCommandOptions {
   readonly input: string;
   readonly output: string;

@@ -133,10 +133,8 @@ export function describeScene(scene: Scene, model: string): ModelInfo {
   };
 }
 
-const some = (names: readonly string[], most = 12) =>
-  names.length === 0
-    ? 'none'
-    : `${names.length}: ${names.slice(0, most).join(', ')}${names.length > most ? ', …' : ''}`;
+const some = (names: readonly string[], max = 12) =>
+  names.length === 0 ? 'none' : `${names.length}: ${names.slice(0, max).join(', ')}${names.length > max ? ', …' : ''}`;
 const length = (metres: number) => `${Number(metres.toPrecision(4))}`;
 const megabytes = (count: number) => `${(count / 1e6).toFixed(1)} MB`;
 
@@ -159,7 +157,7 @@ function lines(info: ModelInfo): string[] {
     ['images', some(info.images.map(({ name, width, height }) => `${name || '–'} ${width}×${height}`))],
     ['cameras', some(info.cameras.map(({ name, type }, i) => `${i} "${name}" ${type}`))],
     ['lights', some(info.lights.map(({ name, type }) => `"${name}" ${type}`))],
-    ['surroundings', info.environment],
+    ['environment', info.environment],
     ['variants', some(info.variants.map((name) => `"${name}"`))],
     ['animations', some(info.animations.map(({ name, duration }) => `"${name}" ${Number(duration.toFixed(3))} s`))],
     ['memory', `${megabytes(memoryBytes.geometry)} of geometry, ${megabytes(memoryBytes.images)} of images`],

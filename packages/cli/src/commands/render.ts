@@ -61,7 +61,7 @@ export interface FailedImage {
   readonly error: { readonly code: string; readonly message: string };
 }
 
-/** A GPU that was lost for good, or never found. */
+/** A GPU that was lost and not recovered, or never found. */
 export interface LostGpu {
   readonly gpu: string;
   readonly error: { readonly code: string; readonly message: string };
@@ -78,7 +78,7 @@ export interface BatchResult {
   /** Finished by an earlier run, with `--resume`. */
   readonly skipped: number;
   readonly failed: number;
-  /** GPUs that were lost for good; the others, if there were any, have gone on with their images. */
+  /** GPUs that were lost and not recovered; the others, if any, have taken over their images. */
   readonly gpusLost: readonly LostGpu[];
   readonly interrupted: Interrupt | null;
   readonly totalMs: number;
@@ -250,7 +250,7 @@ async function renderOne(shot: Shot, { gpus }: RenderCommand, loader: SceneLoade
   }
 }
 
-/** Each GPU takes the next image when it is done with one. What fails is reported, and the others go on. */
+/** Each GPU takes the next image when it is done with one. What fails is reported, and the others continue. */
 async function renderMany(
   shots: readonly Shot[],
   { gpus, resume }: RenderCommand,
@@ -282,7 +282,7 @@ async function renderMany(
   const failed = images.filter(({ ok }) => !ok).length;
   const missing = waiting.length - images.length;
   progress.line(
-    `${shots.length - failed - missing} of ${shots.length} images in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume goes on' : ''}`,
+    `${shots.length - failed - missing} of ${shots.length} images in ${duration(io.now() - start)}${failed > 0 ? `, ${failed} failed` : ''}${missing > 0 ? '; --resume continues' : ''}`,
   );
   return {
     result: {
@@ -342,7 +342,7 @@ class Batch {
     if (this.#fatal) throw this.#fatal.error;
     if (this.#causes.length === 0 || signal.aborted) return;
     const rest = this.#queue.rest();
-    // Not one image was begun: the GPUs that were asked for are not there.
+    // No image was begun: the requested GPUs do not exist.
     if (this.images.length === 0 && lanes.every(({ everOpened }) => !everOpened)) throw this.#causes[0];
     const reasons = this.gpusLost.map(({ error }) => error.message).join(' ');
     for (const { shot } of rest)
@@ -388,12 +388,12 @@ class Batch {
     return job.lostGpus > 1 || (this.#lanes === 1 && !unlucky);
   }
 
-  /** A lane ends and hands over its image with the samples so far. */
+  /** A lane ends and returns its image to the queue, with the samples so far. */
   #leave(lane: Lane, job: Job, error: unknown): void {
     this.#lanes--;
     this.gpusLost.push({ gpu: lane.label, error: describeError(error) });
     this.#causes.push(error);
-    this.#run.progress.warning(`${errorLine(error)}${this.#lanes > 0 ? ' The other GPUs go on with its images.' : ''}`);
+    this.#run.progress.warning(`${errorLine(error)}${this.#lanes > 0 ? ' The other GPUs take over its images.' : ''}`);
     if (this.#lanes > 0 || !lane.everOpened) this.#queue.giveBack(job);
     else {
       this.#fail(job.shot, error, false);
@@ -401,9 +401,9 @@ class Batch {
     }
   }
 
-  #fail(shot: Shot, error: unknown, tell = true): void {
+  #fail(shot: Shot, error: unknown, report = true): void {
     this.exitCode ||= exitCodeOf(error);
-    if (tell) this.#run.progress.warning(`${shotLabel(shot)}: ${errorLine(error)}`);
+    if (report) this.#run.progress.warning(`${shotLabel(shot)}: ${errorLine(error)}`);
     this.images.push({
       ok: false,
       model: shot.options.model,

@@ -20,10 +20,7 @@ const DEPTHS = { png: [8, 16], exr: [16, 32], hdr: [8], film: [32] } as const;
 export function formatOf(path: string, bits?: number): OutputTarget {
   const ending = /\.([a-z0-9]+)$/i.exec(path)?.[1]?.toLowerCase();
   if (ending !== 'png' && ending !== 'exr' && ending !== 'hdr' && ending !== 'film') {
-    throw new CliError(
-      'cli/usage',
-      `Cannot tell the format of "${path}": the name must end in .png, .exr, .hdr or .film.`,
-    );
+    throw new CliError('cli/usage', `Unknown format of "${path}": the name must end in .png, .exr, .hdr or .film.`);
   }
   const depths: readonly number[] = DEPTHS[ending];
   if (bits !== undefined && ending !== 'hdr' && ending !== 'film' && !depths.includes(bits)) {

@@ -49,7 +49,7 @@ async function settingsOf({ options, variant, view }: Shot, cwd: string): Promis
 }
 
 /**
- * The samples of an image in a file: a checkpoint, so that a later run of the same command goes on from there, or an
+ * The samples of an image in a file: a checkpoint, so that a later run of the same command continues from there, or an
  * output that ends in `.film`.
  */
 export class CheckpointFile {

@@ -139,7 +139,7 @@ export class Checkpoints {
       .write(state, codec)
       .then(() => void (this.#written = state))
       // The image is worth more than its checkpoint.
-      .catch((error: unknown) => this.#warn(`${(error as Error).message} Rendering goes on without.`))
+      .catch((error: unknown) => this.#warn(`${(error as Error).message} Rendering continues without.`))
       .finally(() => {
         // Packing and hashing take the thread about as long as copying does; the disk works beside it.
         this.#nextWrite =

@@ -5,7 +5,7 @@ import { writeWhole } from '../output/write';
 
 /** The first line of a film file; a line of JSON follows, and then the film. */
 const FIRST_LINE = 'GLANZ CHECKPOINT 1\n';
-/** Most bytes of the two lines. */
+/** Maximum bytes of the two lines. */
 const MAX_HEADER = 2 ** 20;
 
 /** The second line of a film file. */

@@ -5,7 +5,7 @@ import type { CliIo } from '../io';
 import type { ProgressReporter } from '../progress';
 
 /**
- * A GPU that is gone for good: it was lost several times without progress, or gives no new device. Code `cli/gpu-lost`,
+ * A GPU that cannot be recovered: it was lost several times without progress, or gives no new device. Code `cli/gpu-lost`,
  * exit status 5.
  */
 export class GpuGoneError extends CliError {

@@ -88,14 +88,14 @@ interface Making {
 /**
  * One GPU, making one image after another. Images of the same scene share a tracer: another variant or view is an
  * edit, and the film restarts, so that its pixels are those of a tracer of its own. When the GPU is lost, the image
- * goes on on a new device from its last checkpoint, with the same pixels as without the loss.
+ * continues on a new device from its last checkpoint, with the same pixels as without the loss.
  */
 export class Lane {
   readonly #context: LaneContext;
   readonly #gpu: LaneGpu;
   #tracer: Tracer | undefined;
   #key = '';
-  #toldOf: Scene | undefined;
+  #warnedScene: Scene | undefined;
 
   constructor(context: LaneContext, gpuName: string | undefined) {
     this.#context = context;
@@ -116,7 +116,7 @@ export class Lane {
    * Makes and writes an image; undefined if it was stopped before there was anything to write.
    *
    * @param job Its film is where rendering begins, and where it stood if this throws.
-   * @throws {GpuGoneError} when the GPU is lost for good
+   * @throws {GpuGoneError} when the GPU cannot be recovered
    */
   async render(job: Job): Promise<RenderedShot | undefined> {
     const { shot } = job;
@@ -206,7 +206,7 @@ export class Lane {
     const { scene, environment, warnings } = await this.#load(options, timings, timed);
     const camera = await cameraOf(shot.view, scene, options.width / options.height, io.cwd);
     const variant = variantIndex(scene, shot.variant);
-    this.#tell(scene, warnings);
+    this.#warn(scene, warnings);
     signal.throwIfAborted();
     await this.#device(timed);
     signal.throwIfAborted();
@@ -218,7 +218,7 @@ export class Lane {
     if (signal.aborted && file && samples > 0) {
       await checkpoints.save(tracer);
       if ((await checkpoints.flush()) > 0)
-        progress.line(`${file.path}: ${samples} samples; the same command goes on from there`);
+        progress.line(`${file.path}: ${samples} samples; the same command continues from there`);
     }
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
     progress.stage('write');
@@ -287,10 +287,10 @@ export class Lane {
     return prepared;
   }
 
-  #tell(scene: Scene, warnings: readonly string[]): void {
+  #warn(scene: Scene, warnings: readonly string[]): void {
     const { progress } = this.#context;
-    if (this.#toldOf === scene) return;
-    this.#toldOf = scene;
+    if (this.#warnedScene === scene) return;
+    this.#warnedScene = scene;
     for (const warning of warnings.slice(0, MAX_WARNINGS)) progress.warning(warning);
     if (warnings.length > MAX_WARNINGS)
       progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
@@ -311,7 +311,7 @@ export class Lane {
         );
       // Another GPU may read other formats of textures, which makes it another scene.
       this.#context.progress.warning(
-        `${shotLabel(shot)}: begins from the first sample, since this GPU cannot go on with the samples of another.`,
+        `${shotLabel(shot)}: begins from the first sample, since this GPU cannot continue the samples of another.`,
       );
       checkpoints.forget();
       tracer.reset();
@@ -363,7 +363,7 @@ export class Lane {
   /** The error to end with, after the last checkpoint has been written. */
   async #withCheckpoint(error: unknown, { checkpoints, file }: Making): Promise<unknown> {
     const samples = await checkpoints.flush();
-    const kept = `${samples} samples are in "${file?.path}": the same command goes on from there.`;
+    const kept = `${samples} samples are in "${file?.path}": the same command continues from there.`;
     if (!(error instanceof GpuGoneError)) {
       if (samples > 0) this.#context.progress.line(kept);
       return error;
@@ -373,7 +373,7 @@ export class Lane {
         ? kept
         : file
           ? 'There was no checkpoint yet.'
-          : 'With --checkpoint FILE, a later run goes on from the last samples.';
+          : 'With --checkpoint FILE, a later run continues from the last samples.';
     return new GpuGoneError(`${error.message} ${rest}`, error.givesDevices, error.cause);
   }
 

@@ -4,7 +4,7 @@ import type { Shot } from './shots';
 /** An image to make, and how far it is. */
 export interface Job {
   readonly shot: Shot;
-  /** Its film as it was when a GPU was lost for good. */
+  /** Its film when a GPU was lost and not recovered. */
   film?: FilmState;
   /** GPUs that gave devices and lost each of them on this image. */
   lostGpus: number;

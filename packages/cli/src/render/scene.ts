@@ -5,7 +5,7 @@ import { chooseEnvironment } from '../environment';
 import { CliError } from '../errors';
 import type { RenderCommandOptions } from '../options';
 
-/** A model in its surroundings, ready for a tracer. */
+/** A model with its environment, ready for a tracer. */
 export interface PreparedScene {
   readonly scene: Scene;
   readonly environment: string;
@@ -32,7 +32,7 @@ export class SceneLoader {
 
   /**
    * @param formats Compressed formats of the device that asks first; another one unpacks what it cannot read.
-   * @param timeEnvironment Runs what makes the surroundings, and measures it.
+   * @param timeEnvironment Runs and measures what makes the environment.
    */
   load(
     options: RenderCommandOptions,

@@ -17,7 +17,7 @@ export interface Shot {
 }
 
 function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {
-  // What tells images apart has to be in their names.
+  // What distinguishes images has to be in their names.
   const missing = several
     .filter((name) => !path.includes(`{${name}}`))
     .map((name) => `-{${name}}`)
@@ -65,7 +65,7 @@ export function checkDistinct(shots: readonly Shot[]): void {
   }
 }
 
-/** For progress: what tells this image from the others. */
+/** For progress: what distinguishes this image from the others. */
 export const shotLabel = ({ variant, view, outputs }: Shot): string =>
   [outputs[0]?.path, variant, view.kind === 'camera' && view.camera === undefined ? undefined : view.name]
     .filter((part) => part !== undefined)
