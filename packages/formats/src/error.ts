@@ -7,7 +7,7 @@ import { GlanzError, type SceneWarning } from '@glanz/scene';
  */
 export class FormatError extends GlanzError {}
 
-/** Warnings of one kind are counted instead of told one by one. */
+/** Warnings of one kind are counted instead of reported one by one. */
 export class Tally {
   readonly #counts = new Map<string, { count: number; first: number; message: string }>();
 

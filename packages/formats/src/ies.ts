@@ -9,11 +9,11 @@ export interface IesOptions {
 
 const RADIANS = Math.PI / 180;
 /** More angles than any photometer measures; a file that says more is broken, or wants memory. */
-const MOST_ANGLES = 4096;
+const MAX_ANGLES = 4096;
 
 /**
- * Reads a photometric file (ANSI/IES LM-63 of 1986 to 2019, type C) as the profile of a lamp, for a `ProfileLight` of a
- * scene. Candela with all factors of the file; symmetric lamps are completed to all directions.
+ * Reads a photometric file (ANSI/IES LM-63 of 1986 to 2019, type C) as the profile of a luminaire, for a `ProfileLight` of a
+ * scene. Candela with all factors of the file; symmetric ones are completed to all directions.
  *
  * @param source The file's text or bytes (Latin-1, as only its numbers count).
  * @throws {FormatError} `formats/malformed`, `formats/truncated`, `formats/unsupported` for photometry of type A and B.
@@ -44,17 +44,17 @@ export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOption
   };
   const count = (what: string): number => {
     const value = next(what);
-    if (!(Number.isInteger(value) && value >= 1 && value <= MOST_ANGLES))
+    if (!(Number.isInteger(value) && value >= 1 && value <= MAX_ANGLES))
       throw new FormatError(
         'formats/malformed',
-        `${name}: ${what} is ${value}; it must be a whole number of 1 to ${MOST_ANGLES}.`,
+        `${name}: ${what} is ${value}; it must be a whole number of 1 to ${MAX_ANGLES}.`,
         { location },
       );
     return value;
   };
   if (/^INCLUDE$/i.test(tilt[1] as string)) {
-    // What a tilted lamp loses: a number for the mounting, then as many angles and factors as it says.
-    next('the mounting of the lamp');
+    // Losses of a tilted luminaire: a number for the mounting, then as many angles and factors as it says.
+    next('the mounting');
     for (let left = 2 * count('the number of tilts'); left > 0; left--) next('a tilt');
   }
   next('the number of lamps');
@@ -77,14 +77,14 @@ export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOption
   const vertical = angles(verticals, 'a vertical angle');
   const horizontal = angles(horizontals, 'a horizontal angle');
   const rows = horizontal.map(() => angles(verticals, 'an intensity'));
-  for (const [list, what, most] of [
+  for (const [list, what, max] of [
     [vertical, 'vertical', 180],
     [horizontal, 'horizontal', 360],
   ] as const) {
-    if (list.some((angle, i) => angle < 0 || angle > most || (i > 0 && angle <= (list[i - 1] as number))))
+    if (list.some((angle, i) => angle < 0 || angle > max || (i > 0 && angle <= (list[i - 1] as number))))
       throw new FormatError(
         'formats/malformed',
-        `${name}: its ${what} angles do not rise from 0 to ${most} degrees at most.`,
+        `${name}: its ${what} angles must rise and lie within 0 to ${max} degrees.`,
         { location },
       );
   }
@@ -104,7 +104,7 @@ export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOption
 
 type Plane = readonly [degrees: number, row: readonly number[]];
 
-/** All planes around a lamp by those that its file has: 0; 0 to 90; 0 to 180; 90 to 270; or 0 to 360 degrees. */
+/** All planes around a luminaire by those that its file has: 0; 0 to 90; 0 to 180; 90 to 270; or 0 to 360 degrees. */
 function complete(horizontal: readonly number[], rows: readonly (readonly number[])[], name: string): Plane[] {
   const given: Plane[] = horizontal.map((angle, i) => [angle, rows[i] as readonly number[]]);
   const [first, last] = [horizontal[0] as number, horizontal.at(-1) as number];

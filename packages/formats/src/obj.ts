@@ -67,7 +67,7 @@ export async function readObj(bytes: Uint8Array, options: ObjOptions = {}): Prom
     if (!text || path === undefined) {
       scene.warnings.push({
         code: 'formats/missing-resource',
-        message: `${name} names the materials "${library}", which are not there.`,
+        message: `${name} names the materials "${library}", which are missing.`,
       });
       continue;
     }
@@ -86,7 +86,7 @@ export async function readObj(bytes: Uint8Array, options: ObjOptions = {}): Prom
       if (!found && part.material !== '')
         scene.warnings.push({
           code: 'formats/missing-material',
-          message: `${name} uses the material "${part.material}", which is not there; the default one is taken.`,
+          message: `${name} uses the material "${part.material}", which is missing; the default one is used.`,
         });
       material =
         scene.materials.push(
@@ -150,7 +150,7 @@ function readFaces(bytes: Uint8Array, tally: Tally): { parts: readonly Part[]; l
     else if (key === 'f') {
       part ??= partOf(parts, group, material);
       if (!addFace(part, words, { positions, colors, normals, uvs, colored, smoothing }))
-        tally.add('formats/face', 'a face names vertices that are not there or not finite, and is left out', number);
+        tally.add('formats/face', 'a face names vertices that are missing or not finite, and is left out', number);
     } else if (key === 'o' || key === 'g') {
       group = words.slice(1).join(' ');
       part = undefined;
@@ -183,7 +183,7 @@ interface Lists {
   readonly smoothing: number;
 }
 
-/** Adds a polygon; false if it names what is not there. */
+/** Adds a polygon; false if it names what is missing. */
 function addFace(
   part: Part,
   words: readonly string[],
@@ -259,7 +259,7 @@ async function readImages(
         if (!decoded)
           scene.warnings.push({
             code: 'formats/image',
-            message: `${name}: the image "${map.path}" ${bytes ? 'cannot be decoded' : 'is not there'} and is left out.`,
+            message: `${name}: the image "${map.path}" ${bytes ? 'cannot be decoded' : 'is missing'} and is left out.`,
           });
         images.set(key, decoded && scene.images.push({ name: key, ...decoded }) - 1);
       }

@@ -27,7 +27,7 @@ const FACET = 50;
 export function readStl(bytes: Uint8Array, { name, up = 'z', unit = 1 }: StlOptions = {}): Scene {
   const label = name ?? 'STL';
   const builder = new MeshBuilder();
-  // "solid" begins texts, and the heads of many a binary file: its length tells.
+  // "solid" begins texts, and the headers of many binary files: the length decides.
   const binary =
     bytes.length >= HEAD &&
     bytes.length === HEAD + FACET * new DataView(bytes.buffer, bytes.byteOffset).getUint32(80, true);

@@ -39,7 +39,7 @@ describe('readIes', () => {
       .forEach((value, i) => expect(value).toBeCloseTo(firsts[i]!, 5));
   });
 
-  test('old files, tilted lamps and bytes', () => {
+  test('old files, tilted luminaires and bytes', () => {
     const old =
       'A LUMINAIRE OF 1986\nTILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8\n1 1000 1 2 1 1 1 0 0 0\n1 1 50\n0 180\n0\n7 8\n';
     expect([...readIes(new TextEncoder().encode(old)).intensities]).toEqual([7, 8]);
@@ -49,7 +49,7 @@ describe('readIes', () => {
     const scene = createScene();
     scene.lights.push({
       type: 'profile',
-      name: 'lamp',
+      name: 'downlight',
       color: [1, 1, 1],
       intensity: 1,
       position: [0, 2, 0],
@@ -66,9 +66,9 @@ describe('readIes', () => {
     ['type B', file(3, 1, '0 45 90\n0\n1 1 1', { type: 2 }), 'formats/unsupported', /type B/],
     ['more angles than memory', file(1e9, 1, '0'), 'formats/malformed', /1000000000/],
     ['no angles', file(0, 1, '0'), 'formats/malformed', /vertical angles is 0/],
-    ['angles that fall', file(3, 1, '0 90 45\n0\n1 1 1'), 'formats/malformed', /vertical angles do not rise/],
+    ['angles that fall', file(3, 1, '0 90 45\n0\n1 1 1'), 'formats/malformed', /vertical angles must rise/],
     ['a third of a turn', file(2, 2, '0 90\n0 120\n1 1 1 1'), 'formats/malformed', /0 to 120/],
-    ['a negative lamp', file(2, 1, '0 90\n0\n1 -1'), 'formats/malformed', /negative/],
+    ['a negative intensity', file(2, 1, '0 90\n0\n1 -1'), 'formats/malformed', /negative/],
     ['infinity', file(2, 1, '0 90\n0\n1 1e999'), 'formats/malformed', /1e999/],
   ])('%s', (_, text, code, message) => {
     const read = () => readIes(text, { name: 'a.ies' });

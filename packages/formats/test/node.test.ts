@@ -48,7 +48,7 @@ it('an STL by its name', async () => {
   expect((await loadModelFile(join(folder, 'model/b.stl'))).meshes[0]!.name).toBe('b');
 });
 
-it('files that are not there, or of another kind', async () => {
+it('missing files, or files of another kind', async () => {
   await expect(loadModelFile(join(folder, 'model/none.obj'))).rejects.toMatchObject({
     code: 'formats/missing-resource',
   });

@@ -61,7 +61,7 @@ describe('faces', () => {
     expect(area).toBeCloseTo(5, 12);
   });
 
-  it('faces that name nothing are left out and told once', async () => {
+  it('faces that name nothing are left out and reported once', async () => {
     const scene = await readObj(
       bytes(`${QUAD}v nan 0 0\nf 1 2 3\nf 1 2 9\nf 1 2 5\nf 0 1 2\nf a b c\nl 1 2\ncurv 1 2\n`),
     );

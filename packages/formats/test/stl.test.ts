@@ -51,7 +51,7 @@ it.each([
   );
 });
 
-it("+Z of the file points up unless told otherwise, and units are metres of the host's choice", () => {
+it("+Z of the file points up by default, and units are metres of the host's choice", () => {
   const near = (bounds: ReturnType<typeof sceneBounds>) =>
     [...bounds.min, ...bounds.max].map((x) => Math.round(x * 1e6) / 1e6 + 0);
   expect(near(sceneBounds(readStl(binary(BODY))))).toEqual([0, 0, -2, 1, 3, 0]);
@@ -63,7 +63,7 @@ it('the name in the file, or the given one', () => {
   expect(readStl(text(BODY), { name: 'other' }).meshes[0]!.name).toBe('other');
 });
 
-it('triangles that are not finite are left out and told', () => {
+it('triangles that are not finite are left out and reported', () => {
   const scene = readStl(binary([...BODY, [P[0], P[1], [NaN, 0, 0]]]));
   expect(scene.meshes[0]!.indices.length).toBe(12);
   expect(scene.warnings.map(({ code }) => code)).toEqual(['formats/not-finite']);
