@@ -10,7 +10,10 @@ export function readCamera(camera: ThreeCamera, scene: Scene): Camera | undefine
   const name = camera.name || (loose['type'] as string);
   const zoom = (loose['zoom'] as number | undefined) ?? 1;
   if ((loose['view'] as { readonly enabled?: boolean } | null | undefined)?.enabled)
-    scene.warnings.push({ code: 'three/camera', message: `Camera "${name}" has a view offset, which is not carried.` });
+    scene.warnings.push({
+      code: 'three/camera',
+      message: `Camera "${name}" has a view offset, which is not supported.`,
+    });
   if (loose['isPerspectiveCamera'] === true) {
     const half = Math.tan((((loose['fov'] as number) / 2) * Math.PI) / 180) / zoom;
     // A canvas without a size gives an aspect of NaN or infinity, which the image's replaces.
@@ -19,7 +22,7 @@ export function readCamera(camera: ThreeCamera, scene: Scene): Camera | undefine
       if (value === undefined || (value > 0 && value < Infinity)) return value;
       scene.warnings.push({
         code: 'three/camera',
-        message: `Camera "${name}" has the ${key} ${value}, which is not carried.`,
+        message: `Camera "${name}" has the ${key} ${value}, which is not supported.`,
       });
       return undefined;
     };
@@ -50,7 +53,7 @@ export function readCamera(camera: ThreeCamera, scene: Scene): Camera | undefine
   }
   scene.warnings.push({
     code: 'three/camera',
-    message: `Camera "${name}" of type ${String(loose['type'])} is not carried.`,
+    message: `Camera "${name}" of type ${String(loose['type'])} is not supported.`,
   });
   return undefined;
 }

@@ -31,7 +31,7 @@ export function cubePlace(x: number, y: number, z: number): readonly [face: numb
   return [face as number, ((sc as number) / (ma as number) + 1) / 2, ((tc as number) / (ma as number) + 1) / 2];
 }
 
-/** Samples along each side of a texel: edges of lamps keep their energy. */
+/** Samples along each side of a texel: edges of lights keep their energy. */
 const SAMPLES = 4;
 
 /**

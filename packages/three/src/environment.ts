@@ -27,7 +27,7 @@ export async function readEnvironment(
   if (Math.abs(turn.x) + Math.abs(turn.z) > 1e-6)
     scene.warnings.push({
       code: 'three/environment',
-      message: 'The environment is turned about another axis than +Y; only the turn about +Y is carried.',
+      message: 'The environment is rotated about another axis than +Y; only its rotation about +Y is supported.',
     });
   if (!image) return ambience.dark ? undefined : ambient(ambience, visible);
   if (!ambience.dark && intensity > 0) {
@@ -93,7 +93,7 @@ async function readImage(
     );
   const { width, height } = image;
   const rgb = radianceOf(image, texture);
-  // Raw numbers run upwards in three, unless it is told to turn them over; images of the browser have their first row
+  // Raw numbers run upwards in three, unless `flipY` is set; images of the browser have their first row
   // at the top then.
   if (texture.flipY) return { type: 'latlong', width, height, data: rgb };
   const data = new Float32Array(rgb.length);

@@ -28,8 +28,8 @@ interface Placement {
 
 /**
  * Converts a scene of three.js, as it is posed now: meshes (also instanced, batched, skinned, morphed), standard,
- * physical and basic materials with their textures, lights, the environment, and a camera. What is not carried is told
- * in `scene.warnings`. Nothing of three.js is imported: any version since 0.160 will do. The result shares no memory
+ * physical and basic materials with their textures, lights, the environment, and a camera. What is not supported is
+ * listed in `scene.warnings`. Nothing of three.js is imported: any version since 0.160 will do. The result shares no memory
  * with it.
  *
  * @param root A `THREE.Scene`, or any object; its world matrices are brought up to date.

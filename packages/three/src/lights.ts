@@ -56,8 +56,8 @@ export function readLight(object: ThreeObject, scene: Scene, ambience: Ambience)
   };
   const fading = () => {
     if ((light['decay'] ?? 2) !== 2)
-      warn(`its decay of ${light['decay'] as number} is not carried: light fades with the square of the distance`);
-    if (Number(light['distance'] ?? 0) > 0) warn('its distance is not carried: light does not end');
+      warn(`its decay of ${light['decay'] as number} is not supported: light fades with the square of the distance`);
+    if (Number(light['distance'] ?? 0) > 0) warn('its distance is not supported: light does not end');
   };
   if (light['isAmbientLight'] === true) ambience.add(scaled(color, intensity), scaled(color, intensity));
   else if (light['isHemisphereLight'] === true)
@@ -66,7 +66,7 @@ export function readLight(object: ThreeObject, scene: Scene, ambience: Ambience)
     scene.lights.push({ type: 'directional', name, color: rgb, intensity, direction: towards() });
   else if (light['isSpotLight'] === true) {
     fading();
-    if (light['map']) warn('its map is not carried');
+    if (light['map']) warn('its map is not supported');
     const outer = Math.min(Math.max(light['angle'] as number, 1e-3), Math.PI / 2);
     const inner = Math.min(outer * (1 - (light['penumbra'] as number)), outer * 0.999);
     scene.lights.push({
@@ -84,7 +84,7 @@ export function readLight(object: ThreeObject, scene: Scene, ambience: Ambience)
   else if (light['isPointLight'] === true) {
     fading();
     scene.lights.push({ type: 'point', name, color: rgb, intensity, position });
-  } else warn(`${light['type'] as string} is not carried`);
+  } else warn(`${light['type'] as string} is not supported`);
   return true;
 }
 

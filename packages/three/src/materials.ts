@@ -81,7 +81,7 @@ export class Materials {
     const factors = factorsOf(read, tint, warn);
     const parameters: Record<string, unknown> = { ...fromGltf(factors) };
     const textures: NonNullable<Material['textures']> = {};
-    for (const slot of LOST) if (isTexture(material[slot])) warn(`${slot} is not carried`);
+    for (const slot of LOST) if (isTexture(material[slot])) warn(`${slot} is not supported`);
 
     const bind = async (
       parameter: string,
@@ -90,7 +90,7 @@ export class Materials {
       colorSpace: 'srgb' | 'linear',
       more: Pick<GltfTextureUse, 'range' | 'value' | 'image'> = {},
     ) => {
-      if (map.channel > 1) return warn(`a texture reads uv${map.channel}, but two sets are carried; it is left out`);
+      if (map.channel > 1) return warn(`a texture reads uv${map.channel}, but two sets are supported; it is left out`);
       const texture = more.image
         ? await this.#derive(more.image, map, colorSpace)
         : await this.#textures.get(map, colorSpace);
@@ -112,7 +112,7 @@ export class Materials {
         // Loaders of glTF turn y over where three makes the tangents from coordinates that run downwards.
         const usual = x * (flipped || hasTangents ? 1 : -1);
         if (Math.abs(y - usual) > 1e-6)
-          warn(`its normal scale (${x}, ${y}) is not carried but for its size ${Math.abs(x)}`);
+          warn(`its normal scale (${x}, ${y}) is not supported but for its size ${Math.abs(x)}`);
       }
       textures[parameter as TexturedParameter] = binding;
       if (more.value !== undefined) parameters[parameter] = more.value;
@@ -131,7 +131,7 @@ export class Materials {
       await bind('base_metalness', metalnessMap, 'b', 'linear');
     const alphaMap = read.texture('alphaMap');
     if (alphaMap && factors.alphaMode !== 'OPAQUE') {
-      if (textures.geometry_opacity) warn('of its alphaMap and the alpha of its map only the former is carried');
+      if (textures.geometry_opacity) warn('of its alphaMap and the alpha of its map only the former is supported');
       await bind('geometry_opacity', alphaMap, 'g', 'linear');
     }
 

@@ -8,7 +8,7 @@ const lit = async (...objects: THREE.Object3D[]): Promise<Scene> =>
     new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), ...objects),
   );
 
-/** Irradiance of surroundings on a surface, by summing up the texels. */
+/** Irradiance of an environment on a surface, by summing up the texels. */
 function irradiance({ width, height, data }: LatLongEnvironment, normal: THREE.Vector3, channel: number): number {
   let sum = 0;
   for (let j = 0; j < height; j++) {
@@ -110,7 +110,7 @@ describe('lights', () => {
     expect(area(0).normalize().toArray()).toEqual([0, 0, -1]);
   });
 
-  it('tells what is not carried', async () => {
+  it('warns of what is not supported', async () => {
     const light = new THREE.PointLight(0xffffff, 1, 10, 1);
     light.castShadow = true;
     const { warnings } = await lit(
@@ -119,7 +119,7 @@ describe('lights', () => {
       new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial()),
     );
     expect(warnings.map(({ code }) => code)).toEqual(['three/light', 'three/light', 'three/light', 'three/object']);
-    for (const [i, word] of ['decay', 'distance', 'is not carried', 'Points'].entries())
+    for (const [i, word] of ['decay', 'distance', 'is not supported', 'Points'].entries())
       expect(warnings[i]!.message).toContain(word);
   });
 });
@@ -157,7 +157,7 @@ describe('environment', () => {
   it('of a cube has each face where three shows it, upright and not mirrored', async () => {
     const root = new THREE.Scene().add(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()));
     const size = 8;
-    // Red tells the face; green grows to the right of the image, blue downwards.
+    // Red encodes the face; green grows to the right of the image, blue downwards.
     const face = (n: number) => {
       const data = new Float32Array(size * size * 4);
       for (let j = 0; j < size; j++)
@@ -202,7 +202,7 @@ describe('environment', () => {
     expect(look(0.01, -1, 0.8)[2]).toBeLessThan(0.2);
   });
 
-  it('that cannot be read is told', async () => {
+  it('that cannot be read is reported', async () => {
     for (const [texture, word] of [
       [new THREE.CubeTexture(), 'six square faces'],
       [Object.assign(new THREE.Texture(), { mapping: THREE.CubeUVReflectionMapping }), 'PMREMGenerator'],
@@ -219,7 +219,7 @@ describe('environment', () => {
 });
 
 describe('cameras', () => {
-  it('of a canvas without a size: the aspect is not carried, and the scene is valid', async () => {
+  it('of a canvas without a size: the aspect is not supported, and the scene is valid', async () => {
     const camera = new THREE.PerspectiveCamera(50, 0 / 0, 0.1, 100);
     camera.focus = 0;
     camera.updateMatrixWorld();

@@ -140,7 +140,7 @@ describe('materials', () => {
     expect(Object.keys(only.made.textures!)).toEqual(['base_metalness']);
   });
 
-  it('what there is no place for is told', async () => {
+  it('what has no counterpart is reported', async () => {
     const { warnings } = await convert(
       new THREE.MeshStandardMaterial({ bumpMap: map(), displacementMap: map(), lightMap: map() }),
     );

@@ -60,7 +60,7 @@ describe('textures', () => {
     expect([scene.images.length, scene.textures.length]).toEqual([1, 2]);
   });
 
-  it('that cannot be read are left out, and told', async () => {
+  it('that cannot be read are left out, and reported', async () => {
     const scene = await fromThree(
       new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial({ map: new THREE.Texture() })),
     );
