@@ -25,7 +25,7 @@ export type GltfInput = string | URL | ArrayBuffer | Uint8Array<ArrayBuffer> | G
 export const missing = (uri: string, name: string, cause?: unknown): GltfError =>
   new GltfError(
     'gltf/missing-resource',
-    `${name} names the file "${uri}", which is not there: put it beside the document.`,
+    `${name} names the file "${uri}", which is missing: put it beside the document.`,
     { cause, location: { file: name, path: uri } },
   );
 

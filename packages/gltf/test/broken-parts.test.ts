@@ -46,7 +46,7 @@ const REPAIRED: readonly (readonly [what: string, path: string, change: (json: T
     '/meshes/0/primitives',
     (json) => json['meshes'][0].primitives.push({ attributes: { POSITION: 0 }, targets: [{ POSITION: 0 }] }),
   ],
-  ['weights for morph targets that are not there', '/meshes/0/weights', (json) => (json['meshes'][0].weights = [1, 2])],
+  ['weights for missing morph targets', '/meshes/0/weights', (json) => (json['meshes'][0].weights = [1, 2])],
   [
     'indices of a mesh that nothing shows',
     '/meshes/1/primitives/0',
@@ -126,11 +126,7 @@ const REPAIRED: readonly (readonly [what: string, path: string, change: (json: T
     },
   ],
   ['weights without a mesh', '/nodes/1/weights', (json) => json['nodes'].push({ weights: [1] })],
-  [
-    'weights of a node for morph targets that are not there',
-    '/nodes/0/weights',
-    (json) => (json['nodes'][0].weights = [1]),
-  ],
+  ['weights of a node for missing morph targets', '/nodes/0/weights', (json) => (json['nodes'][0].weights = [1])],
   ['a camera of no type', '/cameras/0/type', (json) => (json['cameras'] = [{ perspective: { yfov: 1, znear: 1 } }])],
   [
     'a camera of both types',

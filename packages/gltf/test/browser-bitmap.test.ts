@@ -140,14 +140,14 @@ test('neither the profile nor the orientation of a JPEG counts', async () => {
     const p = Math.floor(i / 3);
     return [8 * (p % SIZE), 8 * Math.floor(p / SIZE), 90][i % 3]!;
   });
-  const told = await raw(smooth, 3)
+  const oriented = await raw(smooth, 3)
     .withIccProfile('p3')
     .withMetadata({ orientation: 6 })
     .jpeg({ quality: 95, chromaSubsampling: '4:4:4' })
     .toBuffer();
-  expect((await sharp(told).metadata()).orientation).toBe(6);
-  const truth = await sharp(told, { ignoreIcc: true }).raw().toBuffer();
-  const { uploaded } = await decode(told, 'image/jpeg', SIZE, 'srgb');
+  expect((await sharp(oriented).metadata()).orientation).toBe(6);
+  const truth = await sharp(oriented, { ignoreIcc: true }).raw().toBuffer();
+  const { uploaded } = await decode(oriented, 'image/jpeg', SIZE, 'srgb');
   // Two decoders of JPEG may round differently.
   const off = withAlpha(truth).map((code, i) => Math.abs(code - uploaded[i]!));
   expect(Math.max(...off)).toBeLessThanOrEqual(2);

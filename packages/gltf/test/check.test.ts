@@ -25,13 +25,13 @@ test.each<[string, Uint8Array<ArrayBuffer>, string]>([
   ['glTF 1.0', text('{"asset": {"version": "1.0"}}'), 'gltf/version'],
   ['a GLB whose JSON is none', glb('{nonsense'), 'gltf/not-gltf'],
   ['data shorter than it says', glb(triangle().json, new Uint8Array(20)), 'gltf/truncated'],
-])('%s is told apart', async (_, bytes, code) => {
+])('%s is recognized', async (_, bytes, code) => {
   const error = await outcome(bytes);
   expect(error.code).toBe(code);
   expect(error.message).not.toMatch(/\n/);
 });
 
-describe('what the structure hangs on is refused, and the error says where', () => {
+describe('what the structure depends on is refused, and the error says where', () => {
   test.each<[string, (json: TriangleJson) => void, string]>([
     ['a list that is none', (j) => (j['meshes'] = {}), '/meshes'],
     ['an entry that is none', (j) => (j['nodes'][0] = null), '/nodes/0'],

@@ -146,7 +146,7 @@ beforeAll(async () => {
   files.set(
     '/worker.js',
     await bundle(`import { serveGltf } from ${JSON.stringify(here('../src/worker/worker.ts'))}; ${draco}
-    // As on a machine of so many threads; helpers that are started are told of.
+    // As on a machine of so many threads; helper workers that are started are counted.
     const threads = new URLSearchParams(location.search).get('threads');
     if (threads) Object.defineProperty(navigator, 'hardwareConcurrency', { get: () => Number(threads) });
     const Real = Worker, channel = new BroadcastChannel('helpers');
@@ -292,7 +292,7 @@ test('a worker that cannot be started only costs time', async () => {
   expect(own).toBe(5);
 });
 
-test('a broken mesh is told of as without workers', async () => {
+test('a broken mesh is reported as without workers', async () => {
   const [by, alone] = [await loadBy('/broken.glb', 'helper'), await loadBy('/broken.glb', 'none')];
   expect([by.error, by.code]).toEqual([alone.error, alone.code]);
   expect(by.error === undefined ? by.meshes : by.code).toEqual(

@@ -156,7 +156,7 @@ describe('lists that multiply', { timeout: 60_000 }, () => {
     expect([scene.meshes.length, scene.instances.length]).toEqual([1, N]);
   });
 
-  test('warnings are told up to a thousand, and how many there are more', async () => {
+  test('warnings are listed up to a thousand, and how many there are more', async () => {
     const { warnings } = await load(spoiled((json) => void (json['materials'] = many(5000, () => ({ alphaMode: 1 })))));
     expect(warnings.length).toBe(1001);
     expect(warnings.at(-1)).toEqual({ code: 'gltf/more-warnings', message: expect.stringContaining('4000 more') });

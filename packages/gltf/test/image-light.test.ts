@@ -14,7 +14,7 @@ const uri = async (width: number, pixels: readonly number[], channels: 3 | 4) =>
   ).toString('base64')}`;
 
 /** The triangle with an environment of six images, a light's other properties as given. */
-async function surrounded(
+async function loadWithLight(
   images: readonly string[],
   light: object = {},
   more: (json: TriangleJson) => void = () => undefined,
@@ -55,7 +55,7 @@ const AXES = [
 
 describe('EXT_lights_image_based', () => {
   test('each face lies where it belongs, its intensity multiplies it', async () => {
-    const scene = await surrounded(await Promise.all(plain(40)), { intensity: 3 });
+    const scene = await loadWithLight(await Promise.all(plain(40)), { intensity: 3 });
     expect(scene.warnings).toEqual([]);
     expect(scene.images).toEqual([]);
     AXES.forEach((axis, face) =>
@@ -70,7 +70,7 @@ describe('EXT_lights_image_based', () => {
       Array.from({ length: 256 }, (_, i) => (i < 128 ? [0, 0, 255] : i % 16 < 8 ? [255, 0, 0] : [0, 255, 0])).flat(),
       3,
     );
-    const environment = (await surrounded(Array<string>(6).fill(face))).environment as LatLongEnvironment;
+    const environment = (await loadWithLight(Array<string>(6).fill(face))).environment as LatLongEnvironment;
     // Looking along each horizontal axis with +Y up, the right hand points to forward × up.
     for (const [x, , z] of [AXES[0], AXES[1], AXES[4], AXES[5]]) {
       const right = [-z, 0, x] as const;
@@ -85,7 +85,7 @@ describe('EXT_lights_image_based', () => {
   test('alpha divides (RGBD)', async () => {
     const face = await uri(1, [255, 128, 0, 51], 4);
     const [r, g, b] = seen(
-      (await surrounded(Array<string>(6).fill(face))).environment as LatLongEnvironment,
+      (await loadWithLight(Array<string>(6).fill(face))).environment as LatLongEnvironment,
       [1, 0.2, 0.1],
     );
     expect(r).toBeCloseTo(5, 5);
@@ -95,7 +95,7 @@ describe('EXT_lights_image_based', () => {
 
   test('the light is turned by its rotation', async () => {
     // A quarter about +Z takes +X to +Y: what was seen along +X is now seen along +Y.
-    const scene = await surrounded(await Promise.all(plain(40)), { rotation: [0, 0, Math.SQRT1_2, Math.SQRT1_2] });
+    const scene = await loadWithLight(await Promise.all(plain(40)), { rotation: [0, 0, Math.SQRT1_2, Math.SQRT1_2] });
     expect(seen(scene.environment as LatLongEnvironment, [1e-4, 1, 0])[0]).toBeCloseTo(linear(40), 5);
     expect(seen(scene.environment as LatLongEnvironment, [-1, 0, 0])[0]).toBeCloseTo(linear(40 * 3), 5);
   });
@@ -107,7 +107,7 @@ describe('EXT_lights_image_based', () => {
     ['a rotation without length', { rotation: [0, 0, 0, 0] }],
     ['an intensity that is none', { intensity: -1 }],
   ])('%s: no environment, with a warning', async (_, light) => {
-    const scene = await surrounded(await Promise.all(plain(40)), light);
+    const scene = await loadWithLight(await Promise.all(plain(40)), light);
     expect(scene.environment).toBeUndefined();
     expect(scene.warnings).toEqual([
       expect.objectContaining({ code: 'gltf/environment', path: '/extensions/EXT_lights_image_based/lights/0' }),
@@ -115,13 +115,13 @@ describe('EXT_lights_image_based', () => {
   });
 
   test('a broken image, and a light that does not exist', async () => {
-    const broken = await surrounded([
+    const broken = await loadWithLight([
       ...(await Promise.all(plain(40))).slice(0, 5),
       'data:image/png;base64,iVBORw0KGgo=',
     ]);
     expect(broken.environment).toBeUndefined();
     expect(broken.warnings).toEqual([expect.objectContaining({ code: 'gltf/image', path: '/images/5' })]);
-    const none = await surrounded(await Promise.all(plain(40)), {}, (json) => {
+    const none = await loadWithLight(await Promise.all(plain(40)), {}, (json) => {
       json['scenes'][0].extensions.EXT_lights_image_based.light = 3;
     });
     expect(none.environment).toBeUndefined();

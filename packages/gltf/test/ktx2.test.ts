@@ -104,7 +104,7 @@ const cases = sharedIndex<Case>('bad/index.json').filter(
 );
 
 test.skipIf(!bad.present)(
-  `broken KTX2 files are typed errors of the decoder, and a load goes on without them${bad.note}`,
+  `broken KTX2 files are typed errors of the decoder, and a load continues without them${bad.note}`,
   { timeout: 120_000 },
   async () => {
     const { packagedDecoders } = await import('../src/node');

@@ -35,7 +35,7 @@ describe('factors', () => {
   test('metallic-roughness with emission; sides and extras pass through', async () => {
     const material = only(
       await withMaterial({
-        name: 'lamp',
+        name: 'light',
         doubleSided: true,
         extras: { part: 7 },
         emissiveFactor: [1, 0.5, 0],
@@ -43,7 +43,7 @@ describe('factors', () => {
         extensions: { KHR_materials_emissive_strength: { emissiveStrength: 12 } },
       }),
     );
-    expect(material).toMatchObject({ name: 'lamp', double_sided: true, extras: { part: 7 } });
+    expect(material).toMatchObject({ name: 'light', double_sided: true, extras: { part: 7 } });
     expect(material.parameters).toMatchObject({
       base_color: [0.1, 0.2, 0.3],
       base_metalness: 0.5,
@@ -90,7 +90,7 @@ describe('factors', () => {
     ]);
   });
 
-  test('rounding is nothing to tell', async () => {
+  test('rounding is not reported', async () => {
     const scene = await withMaterial({ pbrMetallicRoughness: { baseColorFactor: [1.00000012, 0, 0, 1] } });
     expect([only(scene).parameters.base_color, scene.warnings]).toEqual([[1, 0, 0], []]);
   });

@@ -122,7 +122,7 @@ describe('instances', () => {
       .addChild(document.createNode('body').setTranslation([100, 100, 100]).setMesh(mesh).setSkin(skin));
     const loaded = await loadGltf(await write(document));
     near(Array.from(loaded.instances[0]!.transform), [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
-    // By hand: vertex 0 by the root; vertex 1 at the tip's origin (0, 2, 3); vertex 2 halfway between (0, 1, 3) and the
+    // Computed on paper: vertex 0 by the root; vertex 1 at the tip's origin (0, 2, 3); vertex 2 halfway between (0, 1, 3) and the
     // tip's (-1, 1, 3).
     near(Array.from(loaded.meshes[0]!.positions), [0, 0, 3, 0, 2, 3, -0.5, 1, 3]);
     near(Array.from(loaded.meshes[0]!.normals!), [1, 0, 0, 0, 1, 0, HALF, HALF, 0]);

@@ -188,10 +188,10 @@ describe('in Node', () => {
   });
 });
 
-test("progress is told; abort rejects with the signal's reason", async () => {
-  const told: string[] = [];
-  await loadGltf(sound, { onProgress: ({ stage, done }) => told.push(`${stage} ${done}`) });
-  expect(told).toEqual(['read 1', 'decode 1']);
+test("progress is reported; abort rejects with the signal's reason", async () => {
+  const stages: string[] = [];
+  await loadGltf(sound, { onProgress: ({ stage, done }) => stages.push(`${stage} ${done}`) });
+  expect(stages).toEqual(['read 1', 'decode 1']);
   const reason = new Error('enough');
   await expect(loadGltf(sound, { signal: AbortSignal.abort(reason) })).rejects.toBe(reason);
   const controller = new AbortController();

@@ -120,7 +120,7 @@ const assets = sharedIndex<{ name: string; main: string }>('assets/index.json');
 describe.skipIf(!present)(`real models${note}`, () => {
   test.each(['DamagedHelmet', 'NormalTangentTest', 'FlightHelmet'])('%s', async (name) => {
     const main = assets.find((asset) => asset.name === name)?.main;
-    if (!main || !existsSync(sharedPath(`assets/${main}`))) throw new Error(`${name} is not there`);
+    if (!main || !existsSync(sharedPath(`assets/${main}`))) throw new Error(`${name} is missing`);
     const { meshes } = await loadGltfFile(sharedPath(`assets/${main}`));
     let compared = 0;
     for (const mesh of meshes) {

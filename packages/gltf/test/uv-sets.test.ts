@@ -45,7 +45,7 @@ describe('UV sets', () => {
     expect(scene.meshes[0]!.uvs![textures!.emission_color!.uv ?? 0]![0]).toBe(glow);
   });
 
-  test('a variant that asks for others is told of', async () => {
+  test('a variant that asks for others is reported', async () => {
     const { json, bytes } = withSets({ pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: 3 } } });
     json['materials'].push({ name: 'other', pbrMetallicRoughness: { baseColorTexture: { index: 0, texCoord: 2 } } });
     json['extensions'] = { KHR_materials_variants: { variants: [{ name: 'a' }] } };

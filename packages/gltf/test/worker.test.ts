@@ -145,7 +145,7 @@ test('one worker is kept between loads; loads at a time have one each; an abort 
     '/m/a.glb',
     spoiled(() => undefined),
   );
-  const told = await page.evaluate(async () => {
+  const outcome = await page.evaluate(async () => {
     const Loader = (globalThis as unknown as { GltfWorker: typeof GltfWorker }).GltfWorker;
     let started = 0;
     const loader = new Loader({
@@ -174,7 +174,20 @@ test('one worker is kept between loads; loads at a time have one each; an abort 
     loader.destroy();
     return [...one, ...two, ...three, await pending, await outcome(loader.load('m/a.glb'))];
   });
-  expect(told).toEqual([1, 'gltf/missing-resource', 1, 1, 1, 1, 2, 'AbortError', 1, 3, 'gltf/worker', 'gltf/worker']);
+  expect(outcome).toEqual([
+    1,
+    'gltf/missing-resource',
+    1,
+    1,
+    1,
+    1,
+    2,
+    'AbortError',
+    1,
+    3,
+    'gltf/worker',
+    'gltf/worker',
+  ]);
 });
 
 test('images are sent as bitmaps; their pixels can be read after the transfer', async () => {

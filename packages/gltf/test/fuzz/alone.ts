@@ -33,12 +33,12 @@ async function main(): Promise<void> {
     binary === undefined ? { json } : { json, binary: new Uint8Array(Buffer.from(binary, 'base64')) },
   );
   const begun = performance.now();
-  const tell = (done: number) =>
+  const printProgress = (done: number) =>
     process.stderr.write(`${done} of ${count}, ${(done / ((performance.now() - begun) / 1000)).toFixed(0)} a second\n`);
   const { findings, ends, done } = await fuzzOn(
     (workerData) =>
       new Worker(new URL(import.meta.url), { workerData, resourceLimits: { maxOldGenerationSizeMb: 1024 } }),
-    { parts, seed, count, first, threads, onProgress: (now) => now % 50_000 === 0 && tell(now) },
+    { parts, seed, count, first, threads, onProgress: (now) => now % 50_000 === 0 && printProgress(now) },
   );
   const seconds = (performance.now() - begun) / 1000;
   const report = {

@@ -17,7 +17,7 @@ export interface FuzzPlan extends Pick<FuzzTask, 'parts' | 'seed'> {
 export interface FuzzReport {
   /** At most 20. */
   readonly findings: readonly FuzzFinding[];
-  /** How often each end was: `scene`, or an error's code. Workers that ended early have not told. */
+  /** How often each end was: `scene`, or an error's code. Workers that ended early have not reported. */
   readonly ends: Readonly<Record<string, number>>;
   /** Mutants that were begun. */
   readonly done: number;
@@ -42,7 +42,7 @@ export async function fuzzOn(
         clearTimeout(timer);
         void worker.terminate().then(() => resolve());
       };
-      /** Goes on behind a mutant that ended the worker. */
+      /** Continues after a mutant that ended the worker. */
       const lose = (what: string) => {
         if (over) return;
         findings.push({ mutant: at, what });

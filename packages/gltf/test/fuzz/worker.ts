@@ -1,4 +1,4 @@
-// Loads mutants and tells of each before and after, so that a hang or a crash can be laid at one's door.
+// Loads mutants and reports each before and after, so that a hang or a crash can be attributed to one.
 import { parentPort, workerData } from 'node:worker_threads';
 import { OperationCounter } from '@glanz/operations';
 import { validateScene } from '@glanz/scene';
