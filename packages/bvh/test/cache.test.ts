@@ -110,7 +110,7 @@ describe('BlasCache', () => {
       store.kept.set(key, value);
       expect(await cache.buildBlas(mesh)).toEqual(expected);
       await cache.written();
-      // Mended.
+      // Fixed.
       expect(new Uint8Array(store.kept.get(key)!)).toEqual(new Uint8Array(bytes));
     }
     store.kept.set((await blasKey(small))!, bytes);

@@ -128,7 +128,7 @@ test('rays agree with brute force after thousands of edits (seed 81)', () => {
   expect(hits).toBeGreaterThan(200);
 });
 
-test('a change writes some nodes of many, and tells which (seed 82)', () => {
+test('a change writes some nodes of many, and reports which (seed 82)', () => {
   const random = randomNumbers(82);
   const placings: Placing[] = Array.from({ length: 20000 }, () =>
     placed(at(200 * random(), 200 * random(), 200 * random())),

@@ -111,7 +111,7 @@ test('boxes that lie apart do not overlap; two in one another do', () => {
   };
   const blas = buildBlas(row, { maxLeafTriangles: 1 });
   expect([endPointOverlap(blas, row), siblingOverlap(blas)]).toEqual([0, 0]);
-  // By hand: a root with two leaves, each with one of two crossing squares' halves, boxes [0,2]³ and [1,3]×[0,2]².
+  // Computed on paper: a root with two leaves, each with one of two crossing squares' halves, boxes [0,2]³ and [1,3]×[0,2]².
   const nodes = new Float32Array(NODE_WORDS);
   nodes.set([0, 0, 0], LEFT_MIN);
   nodes.set([2, 2, 2], LEFT_MIN + 4);
@@ -120,15 +120,15 @@ test('boxes that lie apart do not overlap; two in one another do', () => {
   new Uint32Array(nodes.buffer).set([leafReference(0, 1)], LEFT);
   new Uint32Array(nodes.buffer).set([leafReference(1, 1)], RIGHT);
   const mesh = { positions: new Float32Array([0, 0, 0, 2, 0, 0, 2, 2, 0, 1, 1, 1, 3, 1, 1, 3, 2, 1]) };
-  const hand = {
+  const tree = {
     nodes,
     nodeCount: 1,
     triangleIndices: new Uint32Array([0, 1]),
     bounds: { min: new Float32Array(3), max: new Float32Array([3, 2, 2]) },
   };
   // Of the first triangle's area 2, what lies at x ≥ 1 is 1.5; of the second's area 1, what lies at x ≤ 2 is 0.25.
-  expect(endPointOverlap(hand, mesh)).toBeCloseTo((1.5 + 0.25) / 3, 12);
-  expect(siblingOverlap(hand)).toBeCloseTo((1 * 2 + 2 * 2 + 2 * 1) / (3 * 2 + 2 * 2 + 2 * 3), 12);
+  expect(endPointOverlap(tree, mesh)).toBeCloseTo((1.5 + 0.25) / 3, 12);
+  expect(siblingOverlap(tree)).toBeCloseTo((1 * 2 + 2 * 2 + 2 * 1) / (3 * 2 + 2 * 2 + 2 * 3), 12);
   expect(siblingOverlap(buildBlas({ positions: new Float32Array(0) }))).toBe(0);
   expect(endPointOverlap(buildBlas({ positions: new Float32Array(9) }), { positions: new Float32Array(9) })).toBe(0);
 });

@@ -155,7 +155,7 @@ test('builders in the order of what they give: surface area cost', () => {
   }
 });
 
-test('a cache tells builders apart', async () => {
+test('a cache distinguishes builders', async () => {
   const mesh = sphere(8);
   const keys = await Promise.all(
     [{}, { builder: fast }, { builder: best }, { builder: bestSplit }].map((options) => blasKey(mesh, options)),

@@ -110,7 +110,7 @@ test('a visitor can stop, ask further questions, and throw', () => {
   expect(allHits(blas, mesh, ray)).toHaveLength(2);
 });
 
-test('a tree of one leaf tells of each triangle once', () => {
+test('a tree of one leaf reports each triangle once', () => {
   const mesh = { positions: new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0, -1, -1, 0, 3, -1, 0, -1, 3, 0]) };
   const blas = buildBlas(mesh, { maxLeafTriangles: 16 });
   expect(blas.nodeCount).toBe(1);

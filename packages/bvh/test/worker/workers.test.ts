@@ -182,7 +182,7 @@ describe('BvhWorkers', () => {
     expectSame(await workers.buildBlas({ positions: shared, indices: kept.indices }), expected);
   });
 
-  it('tells progress per mesh: 0 when taken up, 1 when done', async () => {
+  it('reports progress per mesh: 0 when started, 1 when done', async () => {
     const workers = await create();
     const reported: number[][] = [[], [], []];
     await Promise.all(reported.map((list) => workers.buildBlas(sphere(32), { onProgress: (done) => list.push(done) })));
@@ -193,7 +193,7 @@ describe('BvhWorkers', () => {
     ]);
   });
 
-  it('hands typed errors across, with code and message, and goes on', async () => {
+  it('passes typed errors across, with code and message, and continues', async () => {
     const workers = await create();
     const faults: readonly [TriangleMesh, object][] = [
       [{ positions: new Float32Array(4) }, {}],
@@ -367,7 +367,7 @@ describe('BvhWorkers', () => {
     expect(await busy(Array.from({ length: 20 }, () => sphere(24)))).toBe(1);
   });
 
-  it('builds here where no worker can be made, whatever the cause, and hands the thread back in between', async () => {
+  it('builds here where no worker can be made, whatever the cause, and yields in between', async () => {
     const causes: (() => Worker)[] = [
       () => {
         throw new Error('refused by policy');
