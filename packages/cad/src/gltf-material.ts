@@ -20,7 +20,7 @@ export function toGltfMaterial({ name, parameters, double_sided }: Material): Wr
     return base + p.subsurface_weight * (1 - p.base_metalness) * ((p.subsurface_color[k] as number) - base);
   });
   const clear = p.transmission_weight > 0;
-  // Where light goes through, glTF's base colour tints it.
+  // glTF's base colour tints transmitted light.
   const base = clear && !(p.transmission_depth > 0) ? [...p.transmission_color] : mixed;
   const json: Record<string, unknown> = {
     name,

@@ -92,8 +92,8 @@ export const hexOf = (color: CadColor): string =>
   `#${color.map((x) => encode(x).toString(16).padStart(2, '0')).join('')}`;
 
 /**
- * Whether a text is what a pattern says, case aside; `*` is anything. Pieces are taken where they come first, so time
- * cannot grow out of hand as with regular expressions.
+ * Whether a text is what a pattern says, case aside; `*` is anything. Pieces are matched at their first occurrence, so that
+ * time stays linear, unlike with regular expressions.
  */
 function matches(pattern: string, text: string): boolean {
   const [first = '', ...rest] = pattern.toLowerCase().split(/\*+/);

@@ -6,7 +6,7 @@ import type { CadColor, CadModel, CadPart } from './read';
 export interface CadSceneOptions {
   readonly materials?: CadMaterialMap;
   /**
-   * Leaves out everything that tells where the parts come from: names of parts, assemblies and the file. Default false.
+   * Leaves out everything that reveals where parts come from: names of parts, assemblies and the file. Default false.
    */
   readonly strip?: boolean;
   /** Which axis of the file points up; default `z`. */

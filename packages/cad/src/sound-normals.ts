@@ -2,7 +2,7 @@ import type { Mesh } from '@glanz/scene';
 import { cross, dot, subtract } from 'gl-matrix/esm/vec3.js';
 
 /** Cosine of the largest angle between a triangle and the normals at its corners: 60°. */
-const LEAST_COSINE = 0.5;
+const MIN_COSINE = 0.5;
 
 /**
  * A mesh whose normals fit its triangles. Simplified triangles can lie far off the surface that their corners' normals
@@ -33,7 +33,7 @@ export function withSoundNormals(mesh: Mesh): Mesh {
     const normal = [across[0] / length, across[1] / length, across[2] / length] as const;
     for (let corner = t; corner < t + 3; corner++) {
       const from = 3 * (indices[corner] as number);
-      if (dot(normal, N.subarray(from)) >= LEAST_COSINE) continue;
+      if (dot(normal, N.subarray(from)) >= MIN_COSINE) continue;
       fitting[corner] = P.length / 3 + sources.push(from) - 1;
       added.push(...normal);
     }

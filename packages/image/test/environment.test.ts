@@ -24,7 +24,7 @@ function patched(attribute: string, values: Float32Array | Int32Array): Uint8Arr
 }
 
 describe('decodeEnvironment', () => {
-  it('tells HDR from EXR by the first bytes', () => {
+  it('distinguishes HDR from EXR by the first bytes', () => {
     const data = Float32Array.of(1, 2, 4, 0.5, 0.25, 0);
     expect([...decodeEnvironment(encodeHdr({ width: 2, height: 1, data })).data]).toEqual([...data]);
     const exr = encodeExr({

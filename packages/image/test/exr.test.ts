@@ -128,7 +128,7 @@ describe('the bytes of the file', () => {
     expect(view.getFloat32(find('screenWindowWidth', 'float').at, true)).toBe(1);
   });
 
-  it('offsets point at blocks of 16 lines, packed as the format says (unpacked here by hand)', () => {
+  it('offsets point at blocks of 16 lines, packed as the format says (unpacked by the test)', () => {
     const chromaticities = find('chromaticities', 'chromaticities');
     const table = chromaticities.at + chromaticities.size + 1;
     for (const [i, first] of [0, 16].entries()) {

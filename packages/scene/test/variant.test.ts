@@ -21,20 +21,20 @@ const scene = () => {
   );
   return made;
 };
-const worn = (s: ReturnType<typeof scene>) => s.instances.map(({ material }) => material);
+const materialsOf = (s: ReturnType<typeof scene>) => s.instances.map(({ material }) => material);
 
 test('a variant exchanges materials where it names one, and the others stay; the scene itself does not change', () => {
   const loaded = scene();
   expect(validateScene(loaded)).toEqual([]);
-  expect(worn(withVariant(loaded, 'night'))).toEqual([2, 1]);
-  expect(worn(withVariant(loaded, 1))).toEqual([2, 1]);
-  expect(worn(withVariant(loaded, 'day'))).toEqual([0, 1]);
+  expect(materialsOf(withVariant(loaded, 'night'))).toEqual([2, 1]);
+  expect(materialsOf(withVariant(loaded, 1))).toEqual([2, 1]);
+  expect(materialsOf(withVariant(loaded, 'day'))).toEqual([0, 1]);
   expect(withVariant(loaded, undefined)).toBe(loaded);
-  expect(worn(loaded)).toEqual([0, 1]);
+  expect(materialsOf(loaded)).toEqual([0, 1]);
   expect(withVariant(loaded, 'night').meshes).toBe(loaded.meshes);
 });
 
-test('variants that are not there', () => {
+test('missing variants', () => {
   expect(() => withVariant(scene(), 'noon')).toThrow(/"noon".*"day", "night"/);
   expect(() => withVariant(createScene(), 0)).toThrow(SceneError);
   const lost = scene();

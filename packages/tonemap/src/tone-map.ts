@@ -12,7 +12,7 @@ export interface ToneMapOptions {
 }
 
 /** Stops in either direction; beyond, products leave the range of single precision. */
-const MOST_STOPS = 64;
+const MAX_STOPS = 64;
 
 /**
  * Validates a tone map and an exposure. Absent values are not checked.
@@ -22,10 +22,10 @@ const MOST_STOPS = 64;
  */
 export function checkToneMapOptions({ toneMap: name, exposure }: ToneMapOptions): void {
   if (name !== undefined) toneMapOperator(name);
-  if (exposure !== undefined && !(typeof exposure === 'number' && Math.abs(exposure) <= MOST_STOPS)) {
+  if (exposure !== undefined && !(typeof exposure === 'number' && Math.abs(exposure) <= MAX_STOPS)) {
     throw new ToneMapError(
       'tonemap/exposure',
-      `The exposure is ${String(exposure)}; it must be a number of stops from -${MOST_STOPS} to ${MOST_STOPS}.`,
+      `The exposure is ${String(exposure)}; it must be a number of stops from -${MAX_STOPS} to ${MAX_STOPS}.`,
     );
   }
 }

@@ -113,7 +113,7 @@ describe('ACES', () => {
     expect(acesToneMap([0.18, 0.18, 0.18])[1]).toBeCloseTo(0.1, 1.8);
   });
   it('keeps to the fit’s own values on the grey axis', () => {
-    // Rational fit worked out by hand with exact fractions; the matrices' rows add up to 1 within 1e-5.
+    // Rational fit computed with exact fractions; the matrices' rows add up to 1 within 1e-5.
     expect(acesToneMap([1, 1, 1])[1]).toBeCloseTo(1.024488063 / 1.654762, 3);
     expect(acesToneMap([0.18, 0.18, 0.18])[1]).toBeCloseTo(0.036733611 / 0.347884992, 3);
   });
