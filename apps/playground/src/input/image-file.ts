@@ -3,8 +3,6 @@ import type { Image, TexturedParameter } from '@glanz/scene';
 import { PlaygroundError } from '../errors';
 import type { Slot } from '../state/state';
 
-export const PICTURE = /\.(png|jpe?g|webp|avif|gif|bmp)$/i;
-
 /**
  * Decodes an image for a texture.
  *

@@ -21,7 +21,7 @@ type Read<T> = (value: unknown) => T | undefined;
 
 /** Maximum number of entries of a list or a record. */
 const MAX_ENTRIES = 100_000;
-const MOST_BOXES = 64;
+const MAX_BOXES = 64;
 
 const isRecord = (value: unknown): value is Readonly<Record<string, unknown>> =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
@@ -144,7 +144,7 @@ const FIELDS: { readonly [Name in keyof State]?: Read<State[Name]> } = {
   toneMap: one(TONE_MAPS),
   environment: one(ENVIRONMENT_CHOICES),
   studio: one(Object.keys(STUDIOS) as StudioName[]),
-  boxes: orNull(list(softBox, MOST_BOXES)),
+  boxes: orNull(list(softBox, MAX_BOXES)),
   constant: rgb(1e4),
   intensity: number(0, 1000),
   rotation: number(-3600, 3600),

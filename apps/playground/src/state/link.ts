@@ -66,7 +66,7 @@ export async function encodeLink({ model, state, files }: LinkContent): Promise<
 }
 
 /** Maximum bytes of JSON in a link: a few letters can unpack to gigabytes. */
-const MOST_BYTES = 4_194_304;
+const MAX_BYTES = 4_194_304;
 
 /** @throws where the bytes are no deflated text, or too long a one. */
 async function unpack(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
@@ -77,7 +77,7 @@ async function unpack(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
     const { done, value } = await reader.read();
     if (done) return text + decoder.decode();
     length += value.length;
-    if (length > MOST_BYTES) {
+    if (length > MAX_BYTES) {
       await reader.cancel();
       throw new RangeError('The link holds too much.');
     }

@@ -17,7 +17,7 @@ interface Step<S> {
 
 /** Changes of one key further apart than this are steps of their own. */
 const MERGE_MS = 1200;
-const MOST_STEPS = 200;
+const MAX_STEPS = 200;
 
 /**
  * The one place where the state is, with its history. Steps hold former states whole, which is cheap: states share what
@@ -65,7 +65,7 @@ export class Store<S extends object> {
       if (last && last.key === key && this.#now() - last.at < MERGE_MS) last.at = this.#now();
       else {
         this.#undo.push({ label, key, before: this.#state, at: this.#now() });
-        if (this.#undo.length > MOST_STEPS) this.#undo.shift();
+        if (this.#undo.length > MAX_STEPS) this.#undo.shift();
       }
       this.#redo = [];
     }

@@ -47,7 +47,7 @@ export interface RenderHost {
   readonly render: (request: RenderRequest) => Promise<Blob>;
 }
 
-const [MOST_SIDE, LEAST_NOISE] = [16_384, 0.001];
+const [MAX_SIDE, MIN_NOISE] = [16_384, 0.001];
 /** What a noise target begins with. */
 const USUAL_NOISE = 0.02;
 
@@ -122,8 +122,8 @@ export function showRenderDialog(host: RenderHost): void {
     ],
     'screen',
   );
-  const width = numberBox('render-width', 'Width, pixels', screenWidth, [1, MOST_SIDE], 1);
-  const height = numberBox('render-height', 'Height, pixels', screenHeight, [1, MOST_SIDE], 1);
+  const width = numberBox('render-width', 'Width, pixels', screenWidth, [1, MAX_SIDE], 1);
+  const height = numberBox('render-height', 'Height, pixels', screenHeight, [1, MAX_SIDE], 1);
   const goal = select(
     'render-goal',
     [
@@ -137,7 +137,7 @@ export function showRenderDialog(host: RenderHost): void {
     'render-noise',
     'Noise, relative',
     host.noise || USUAL_NOISE,
-    [LEAST_NOISE, LIMITS.noise[1]],
+    [MIN_NOISE, LIMITS.noise[1]],
     'any',
   );
   const format = select(

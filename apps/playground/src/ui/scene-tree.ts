@@ -6,7 +6,7 @@ import { icon } from './icons';
 import { currentValue } from './material/edits';
 
 /** More rows than this are found by searching. */
-const MOST_ROWS = 400;
+const MAX_ROWS = 400;
 
 /** The parts of a scene: a click chooses one, the eye hides it, Alt and the eye hide all others. */
 export class SceneTree {
@@ -62,7 +62,7 @@ export class SceneTree {
     this.#rows = new Map();
     const rows: HTMLElement[] = [];
     let heading = -1;
-    for (const index of indices.slice(0, MOST_ROWS)) {
+    for (const index of indices.slice(0, MAX_ROWS)) {
       const material = scene.instances[index]?.material ?? 0;
       if (byMaterial && material !== heading)
         rows.push(
@@ -76,8 +76,8 @@ export class SceneTree {
       this.#rows.set(index, row);
       rows.push(row);
     }
-    if (indices.length > MOST_ROWS)
-      rows.push(element('li', { class: 'heading' }, `${indices.length - MOST_ROWS} more: search for them`));
+    if (indices.length > MAX_ROWS)
+      rows.push(element('li', { class: 'heading' }, `${indices.length - MAX_ROWS} more: search for them`));
     if (indices.length === 0) rows.push(element('li', { class: 'heading' }, 'No part has this name.'));
     this.#list.replaceChildren(...rows);
     this.#mark();

@@ -3,12 +3,12 @@ import type { Context } from '../context';
 import { element } from '../elements';
 import { replaceMaterial } from './edits';
 
-const PICTURES: Readonly<Record<string, string>> = import.meta.glob('../../../../docs/public/presets/*.webp', {
+const PRESET_IMAGES: Readonly<Record<string, string>> = import.meta.glob('../../../../docs/public/presets/*.webp', {
   eager: true,
   query: '?url',
   import: 'default',
 });
-const imageOf = (name: string) => PICTURES[`../../../../docs/public/presets/${name}.webp`];
+const imageOf = (name: string) => PRESET_IMAGES[`../../../../docs/public/presets/${name}.webp`];
 
 /** Kind of data under which a preset travels by drag and drop. */
 export const PRESET_TYPE = 'text/x-glanz-preset';
