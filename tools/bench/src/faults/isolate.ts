@@ -3,7 +3,7 @@ import { BenchError } from '../error';
 import { Journal } from './journal';
 
 /** Deaths without a trial in between after which {@link untilDone} gives up. */
-const MOST_IDLE_DEATHS = 3;
+const MAX_IDLE_DEATHS = 3;
 
 /**
  * Runs a command, which notes its trials in a journal, until it has made all of them. Where a signal ends it (a driver
@@ -36,7 +36,7 @@ export async function untilDone(
     const { running } = journal;
     if (running) journal.end({ ...running, ending: 'crash', detail: `the process died of ${signal}` });
     idle = journal.outcomes.length > before ? 0 : idle + 1;
-    if (idle >= MOST_IDLE_DEATHS)
+    if (idle >= MAX_IDLE_DEATHS)
       throw new BenchError('bench/failed', `The process of the campaign dies of ${signal} before its first trial.`);
   }
 }
