@@ -3,8 +3,8 @@ import { glanzPackage } from '../../tsup.base';
 export default glanzPackage({
   index: 'src/index.ts',
   blas: 'src/blas.ts',
-  fast: 'src/build/fast.ts',
-  best: 'src/build/best.ts',
+  fast: 'src/builders/fast.ts',
+  best: 'src/builders/best.ts',
   async: 'src/async.ts',
   tlas: 'src/tlas.ts',
   'dynamic-tlas': 'src/dynamic-tlas.ts',

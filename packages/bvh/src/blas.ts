@@ -1,5 +1,5 @@
-import { buildBalanced } from './build/balanced';
-import type { TreeBuilder } from './build/builder';
+import { buildBalanced } from './builders/balanced';
+import type { TreeBuilder } from './builders/builder';
 import { BvhError } from './error';
 import { type Aabb, LEAF_MAX, MAX_PRIMITIVES, TRIANGLE_WORDS, type TriangleMesh } from './layout';
 

@@ -1,4 +1,4 @@
-import { buildOverBoxes } from './build/over-boxes';
+import { buildOverBoxes } from './builders/over-boxes';
 import { BvhError } from './error';
 import {
   FAR,

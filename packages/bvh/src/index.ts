@@ -1,6 +1,6 @@
 export { blasSteps, buildBlas, packTriangles, type Blas, type BlasOptions } from './blas';
 export type { TriangleMesh } from './layout';
-export type { BuildSettings, TreeBuilder } from './build/builder';
+export type { BuildSettings, TreeBuilder } from './builders/builder';
 export {
   anyHit,
   anyHitInstances,

@@ -1,4 +1,4 @@
-import { buildOverBoxes } from './build/over-boxes';
+import { buildOverBoxes } from './builders/over-boxes';
 import { BvhError } from './error';
 import { rootBounds, TLAS_MAX_DEPTH, type Aabb } from './layout';
 import { checkTransform, placeInstance, type TlasInstance } from './place-instance';

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { buildBlasAsync } from '../src/async';
-import { best, bestSplit } from '../src/build/best';
-import { fast } from '../src/build/fast';
+import { best, bestSplit } from '../src/builders/best';
+import { fast } from '../src/builders/fast';
 import { buildBlas, BvhError } from '../src/index';
 import { randomNumbers, sphere, strewn } from './shapes';
 

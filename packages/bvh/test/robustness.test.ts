@@ -1,8 +1,8 @@
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { compose, wgslModule } from '@glanz/wgsl';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
-import { best, bestSplit } from '../src/build/best';
-import { fast } from '../src/build/fast';
+import { best, bestSplit } from '../src/builders/best';
+import { fast } from '../src/builders/fast';
 import { allHits } from '../src/cpu/all-hits';
 import {
   anyHit,

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { bestSplit } from '../src/build/best';
+import { bestSplit } from '../src/builders/best';
 import { buildBlas, type Blas, type TriangleMesh } from '../src/index';
 import { refitBlas } from '../src/refit';
 import { LEAF, LEFT, LEFT_MIN, leafCount, leafFirst, leafReference, NODE_WORDS, RIGHT, RIGHT_MIN } from '../src/layout';

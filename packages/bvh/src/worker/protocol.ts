@@ -1,7 +1,7 @@
 import { GlanzError } from '@glanz/wgsl/error';
 import type { Blas, BlasOptions } from '../blas';
 import type { TriangleMesh } from '../layout';
-import type { TreeBuilder } from '../build/builder';
+import type { TreeBuilder } from '../builders/builder';
 import { BvhError } from '../error';
 import type { TeamMemory } from './team';
 

@@ -1,8 +1,8 @@
-import { GROUP_MAX } from '../build/agglomerate';
-import { cutCell, cutCells, type Clusters } from '../build/clusters';
-import { NONE, type Sorted } from '../build/gather';
-import { ClusterTrees } from '../build/cluster-trees';
-import { NodeWriter } from '../build/node-writer';
+import { GROUP_MAX } from '../builders/agglomerate';
+import { cutCell, cutCells, type Clusters } from '../builders/clusters';
+import { NONE, type Sorted } from '../builders/gather';
+import { ClusterTrees } from '../builders/cluster-trees';
+import { NodeWriter } from '../builders/node-writer';
 import { LEAF, LEFT, NODE_WORDS, PARENT, RIGHT } from '../layout';
 import type { Team } from './team';
 

@@ -1,9 +1,9 @@
 import type { TriangleMesh } from '../layout';
-import { Gatherer, type Sorted } from '../build/gather';
-import { MortonSort } from '../build/morton';
-import { PrimitiveMaker } from '../build/primitives';
-import type { Memory } from '../build/scratch';
-import { STEP } from '../build/steps';
+import { Gatherer, type Sorted } from '../builders/gather';
+import { MortonSort } from '../builders/morton';
+import { PrimitiveMaker } from '../builders/primitives';
+import type { Memory } from '../builders/scratch';
+import { STEP } from '../builders/steps';
 import type { Team } from './team';
 
 const DIGIT = 10;

@@ -1,8 +1,8 @@
-import { GROUP_MAX } from '../build/agglomerate';
-import type { Clusters } from '../build/clusters';
-import { encloseNodes, Levels, type Items } from '../build/levels';
-import type { NodeWriter } from '../build/node-writer';
-import { PASSES, rotateAt } from '../build/rotate';
+import { GROUP_MAX } from '../builders/agglomerate';
+import type { Clusters } from '../builders/clusters';
+import { encloseNodes, Levels, type Items } from '../builders/levels';
+import type { NodeWriter } from '../builders/node-writer';
+import { PASSES, rotateAt } from '../builders/rotate';
 import { LEAF, LEFT, NODE_WORDS, RIGHT } from '../layout';
 import type { Team } from './team';
 

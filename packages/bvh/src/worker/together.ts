@@ -1,8 +1,8 @@
-import { buildBalanced } from '../build/balanced';
-import type { BuildSettings } from '../build/builder';
-import { CLUSTER_DEPTH } from '../build/cluster-trees';
-import { encloseNodes, Levels } from '../build/levels';
-import { joinUpperLevels, STEP, type Steps, type TriangleTree } from '../build/steps';
+import { buildBalanced } from '../builders/balanced';
+import type { BuildSettings } from '../builders/builder';
+import { CLUSTER_DEPTH } from '../builders/cluster-trees';
+import { encloseNodes, Levels } from '../builders/levels';
+import { joinUpperLevels, STEP, type Steps, type TriangleTree } from '../builders/steps';
 import { BLAS_MAX_DEPTH, type TriangleMesh } from '../layout';
 import type { Team } from './team';
 import { placeClusterTrees, shareClusterTrees, writerOver } from './together-clusters';

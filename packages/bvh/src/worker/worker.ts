@@ -1,10 +1,10 @@
 import { buildBlas, type BlasOptions } from '../blas';
 import type { TriangleMesh } from '../layout';
-import { best, bestSplit } from '../build/best';
-import type { BuildSettings } from '../build/builder';
-import { fast } from '../build/fast';
-import { Scratch } from '../build/scratch';
-import type { TriangleTree } from '../build/steps';
+import { best, bestSplit } from '../builders/best';
+import type { BuildSettings } from '../builders/builder';
+import { fast } from '../builders/fast';
+import { Scratch } from '../builders/scratch';
+import type { TriangleTree } from '../builders/steps';
 import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
 import { RETAIN_MS } from './retained';

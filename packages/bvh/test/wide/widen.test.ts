@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { best, bestSplit } from '../../src/build/best';
-import { fast } from '../../src/build/fast';
+import { best, bestSplit } from '../../src/builders/best';
+import { fast } from '../../src/builders/fast';
 import { buildBlas, buildTlas, closestHit, packTriangles, type TriangleMesh } from '../../src/index';
 import { WIDE_BLAS_DEPTH, WIDE_TLAS_DEPTH, WIDE_WORDS } from '../../src/wide/layout';
 import { anyHitWide, closestHitWide, widenBlas, widenTlas, type WideNodes } from '../../src/wide/index';

@@ -1,12 +1,12 @@
 import { describe, expect, test } from 'vitest';
-import { best, bestSplit } from '../../src/build/best';
-import { fast } from '../../src/build/fast';
+import { best, bestSplit } from '../../src/builders/best';
+import { fast } from '../../src/builders/fast';
 import { buildBlas, closestHit, type BlasOptions, type TriangleMesh } from '../../src/index';
 import { refitBlas } from '../../src/refit';
 import { bvhStatistics, sahCost } from '../../src/statistics';
-import { boundDepth, finishDraft } from '../../src/build/finish';
+import { boundDepth, finishDraft } from '../../src/builders/finish';
 import { blasKey } from '../../src/cache';
-import type { DraftTree } from '../../src/build/draft';
+import type { DraftTree } from '../../src/builders/draft';
 import { bruteForce, direction, randomNumbers, sphere, strewn } from '../shapes';
 import { checkBlas } from '../structure';
 

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { Agglomerator, GROUP_MAX } from '../../src/build/agglomerate';
+import { Agglomerator, GROUP_MAX } from '../../src/builders/agglomerate';
 import { randomNumbers } from '../shapes';
 
 /** Walks the tree: every item once, boxes around their children's. Gives the height and the surface of all nodes. */
