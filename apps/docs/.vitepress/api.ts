@@ -76,7 +76,7 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
     modulesFileName: 'index',
     outputFileStrategy: 'modules',
     pageTitleTemplates: { module: ({ name }: { name: string }) => `@glanz/${name}` },
-    // A symbol is told about under the first entry that exports it: the package's main one.
+    // A symbol is documented under the first entry that exports it: the package's main one.
     sortEntryPoints: false,
     useCodeBlocks: true,
     parametersFormat: 'table',
@@ -99,7 +99,7 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
   );
   for (const module of project.children?.slice() ?? []) {
     module.name = names.get(module.name) ?? module.name;
-    // Entries that only narrow a package's main one have nothing of their own to tell.
+    // Entries that only narrow a package's main one have nothing of their own to document.
     if ((module.children ?? []).every((child) => child.kind === ReflectionKind.Reference))
       project.removeReflection(module);
   }

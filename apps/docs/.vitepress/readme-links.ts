@@ -1,7 +1,7 @@
 // The pages of packages are their READMEs. Links that are right in the repository become links of the site here.
 import type { MarkdownRenderer } from 'vitepress';
 
-/** Where files of the repository's root are told about on the site. */
+/** Where files of the repository's root are documented on the site. */
 const FILES: Readonly<Record<string, string>> = {
   'ARCHITECTURE.md': '/how/',
   'ARCHITECTURE.md#conventions': '/guide/conventions',

@@ -2,11 +2,11 @@ import type { PathTracer } from '@glanz/renderer';
 import type { Mesh, Scene } from '@glanz/scene';
 
 // #region catalogue
-/** What customers choose from. A choice names the parts that it shows, and what they are made of. */
+/** What customers choose from. A choice names the parts that it shows, and their materials. */
 export interface Choice {
   readonly name: string;
   readonly shows?: readonly string[];
-  readonly wears?: Readonly<Record<string, string>>;
+  readonly materials?: Readonly<Record<string, string>>;
 }
 
 export interface Option {
@@ -20,7 +20,7 @@ export const assemblies = (options: readonly Option[]) =>
 // #endregion catalogue
 
 // #region choose
-/** Shows one choice of an option and hides the others; tells how long it took until the image began again. */
+/** Shows one choice of an option and hides the others; returns the milliseconds until the image restarted. */
 export async function choose(
   tracer: PathTracer,
   option: Option,
@@ -34,7 +34,7 @@ export async function choose(
       tracer.setVisibility(part, chosen.shows?.includes(part) ?? false),
     ),
   );
-  for (const [part, material] of Object.entries(chosen.wears ?? {}))
+  for (const [part, material] of Object.entries(chosen.materials ?? {}))
     edits.push(tracer.setInstanceMaterial(part, material));
   await Promise.all(edits);
   return performance.now() - start;

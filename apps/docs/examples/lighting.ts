@@ -34,8 +34,8 @@ export const inTheDark = (tracer: PathTracer) =>
   tracer.setEnvironment(undefined);
 // #endregion studio
 
-// #region lamps
-export function addLamps(scene: Scene): Scene {
+// #region punctual
+export function addPunctualLights(scene: Scene): Scene {
   return {
     ...scene,
     lights: [
@@ -66,11 +66,11 @@ export function addLamps(scene: Scene): Scene {
     ],
   };
 }
-// #endregion lamps
+// #endregion punctual
 
 // #region profile
 export function addDownlight(scene: Scene, ies: Uint8Array): Scene {
-  const profile = readIes(ies); // candela, by the angles that the lamp was measured at
+  const profile = readIes(ies); // candela, by the angles of the measurement
   return {
     ...scene,
     lights: [

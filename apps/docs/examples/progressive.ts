@@ -65,7 +65,7 @@ export function renderUntilClicked(
 // #endregion abort
 
 // #region edits
-/** Renders for as long as the page lives; edits restart the film, and the loop goes on with it. */
+/** Renders for as long as the page lives; edits restart the film, and the loop continues with it. */
 export async function keepRendering(
   tracer: PathTracer,
   signal: AbortSignal,

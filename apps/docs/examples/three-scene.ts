@@ -17,10 +17,10 @@ export function build() {
   );
   scene.add(knot);
 
-  const lamp = new THREE.RectAreaLight(0xffffff, 20, 2, 2);
-  lamp.position.set(3, 3, 3);
-  lamp.lookAt(0, 0, 0);
-  scene.add(lamp);
+  const light = new THREE.RectAreaLight(0xffffff, 20, 2, 2);
+  light.position.set(3, 3, 3);
+  light.lookAt(0, 0, 0);
+  scene.add(light);
 
   const camera = new THREE.PerspectiveCamera(40, 1.5);
   camera.position.set(0, 1, 6);

@@ -15,8 +15,8 @@ export async function start(
 }
 // #endregion start
 
-// #region tell
-export function tell(
+// #region events
+export function showEvents(
   viewer: Viewer,
   bar: HTMLProgressElement,
   line: HTMLElement,
@@ -35,7 +35,7 @@ export function tell(
     if (retry) line.onclick = retry;
   });
 }
-// #endregion tell
+// #endregion events
 
 // #region edit
 export async function dress(viewer: Viewer): Promise<void> {
@@ -79,7 +79,7 @@ export function acceptDrops(viewer: Viewer): void {
   canvas.addEventListener('drop', (event) => {
     event.preventDefault();
     if (event.dataTransfer)
-      viewer.load(event.dataTransfer.files).catch(() => undefined); // the error event tells
+      viewer.load(event.dataTransfer.files).catch(() => undefined); // reported by the error event
   });
 }
 // #endregion drop

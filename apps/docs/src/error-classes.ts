@@ -1,4 +1,4 @@
-/** An error class as its doc comment tells about it. */
+/** An error class as its doc comment describes it. */
 export interface ErrorClass {
   readonly name: string;
   readonly package: string;

@@ -9,8 +9,8 @@ import { createLiveScene } from './live/scenes';
 
 /** Twice what the page shows. */
 const SIZE = 320;
-/** What a lamp is dimmed to, so that its image shows more than white. */
-const LAMP = 2;
+/** Emission of emissive presets, dimmed so that their image shows more than white. */
+const EMISSION = 2;
 
 /**
  * Path-traces a sphere of each preset, one after the other, into PNG files.
@@ -33,7 +33,7 @@ export async function presetsMain([folder = '.', samples = '256', ...names]: rea
     const parameters = OPENPBR_PRESETS[name];
     scene.materials[0] = {
       name: 'sphere',
-      parameters: parameters.emission_luminance ? { ...parameters, emission_luminance: LAMP } : parameters,
+      parameters: parameters.emission_luminance ? { ...parameters, emission_luminance: EMISSION } : parameters,
     };
     const tracer = await PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera, maxDepth: 24 });
     for await (const _ of tracer.render({ samples: Number(samples) }));

@@ -3,7 +3,7 @@ import { build } from 'esbuild';
 import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 
 /**
- * Evaluates one export of a module of this repository, from sources, at build time: pages that tell about code read it
+ * Evaluates one export of a module of this repository, from sources, at build time: pages that document code read it
  * instead of copying it.
  *
  * @param specifier A package entry, or a path relative to this folder.

@@ -43,10 +43,10 @@ async function started(page: Page): Promise<void> {
 
 const done = (page: Page) => expect.poll(() => page.evaluate(() => window.viewer.state)).toBe('done');
 
-test('the viewer: it starts, tells, is edited, looked at, pinned to, dropped on and saved', async ({ page }) => {
+test('the viewer: it starts, emits events, is edited, looked at, pinned to, dropped on and saved', async ({ page }) => {
   await started(page);
   await page.evaluate(() =>
-    window.examples.tell(window.viewer, document.querySelector('progress')!, document.querySelector('#line')!),
+    window.examples.showEvents(window.viewer, document.querySelector('progress')!, document.querySelector('#line')!),
   );
   await page.evaluate(() => window.examples.pin(window.viewer, document.querySelector('#pin')!, [-1.2, 0, 0]));
   await page.evaluate(() => window.examples.acceptDrops(window.viewer));

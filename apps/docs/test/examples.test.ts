@@ -159,7 +159,7 @@ describe('layers', () => {
       beauty.forEach((x, i) => i % 4 === 0 && expect(Math.abs(red[i / 4]! - x)).toBeLessThanOrEqual(x * 2 ** -11));
     }));
 
-  test('a lamp dimmed afterwards', async () => {
+  test('a light dimmed afterwards', async () => {
     const log = vi.spyOn(console, 'log').mockImplementation(() => undefined);
     const create = vi
       .spyOn(PathTracer, 'create')
@@ -173,7 +173,7 @@ describe('layers', () => {
 });
 
 describe('lighting', () => {
-  test('surroundings: a file, a studio, fog, darkness', () =>
+  test('environments: a file, a studio, fog, darkness', () =>
     withTracer(async (tracer) => {
       const data = Float32Array.from({ length: 8 * 4 * 3 }, (_, i) => (i % 3 === 0 ? 2 : 0.1));
       await lighting.lightWith(tracer, dataUrl(encodeHdr({ width: 8, height: 4, data }), 'image/vnd.radiance'));
@@ -186,8 +186,8 @@ describe('lighting', () => {
       await lighting.inTheDark(tracer);
     }));
 
-  test('lamps, a glow', async () => {
-    const scene = lighting.addPanels(lighting.addLamps(exampleScene()));
+  test('punctual and area lights, emission', async () => {
+    const scene = lighting.addPanels(lighting.addPunctualLights(exampleScene()));
     delete (scene as { environment?: unknown }).environment;
     await withTracer(async (tracer) => {
       expect(mean(await image(tracer), 0)).toBeGreaterThan(0.001);
@@ -197,7 +197,7 @@ describe('lighting', () => {
     }, scene);
   });
 
-  test('a lamp by its IES file', async () => {
+  test('a light by its IES file', async () => {
     const ies = new TextEncoder().encode(
       'IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 3 1 1 2 0.1 0.1 0\n1 1 10\n0 45 90\n0\n900 400 0',
     );
@@ -233,7 +233,7 @@ describe('glTF', () => {
     expect(dropped.meshes.length).toBe(1);
   });
 
-  test('a download that was cut off is told', async () => {
+  test('a download that was cut off is reported', async () => {
     const said: string[] = [];
     expect(
       await open(dataUrl(triangleGlb().slice(0, 100), 'model/gltf-binary'), (text) => said.push(text)),
@@ -326,7 +326,7 @@ test('a configurator: parts, colours, an address', () => {
       name: 'lens',
       choices: [
         { name: 'lid', shows: ['lid'] },
-        { name: 'box', shows: ['packaging'], wears: { packaging: 'ring' } },
+        { name: 'box', shows: ['packaging'], materials: { packaging: 'ring' } },
       ],
     };
     expect(configurator.assemblies([lens, lens, lens])).toBe(8);

@@ -9,7 +9,7 @@ let origin = '';
 let close: () => void = () => undefined;
 
 test.beforeAll(async () => {
-  // The site is built here, which takes minutes where other work goes on.
+  // The site is built here, which takes minutes on a busy machine.
   test.setTimeout(600_000);
   await buildSite();
   const site = await serveSite();
@@ -104,7 +104,7 @@ const isFull = process.env['GLANZ_FULL'] !== undefined;
 
 /**
  * In which widths and themes a page is looked at: one of each kind in all three widths and both themes, with all six
- * pairs on any two kinds that follow each other; others that are written by hand in one pair, by turns, and so each
+ * pairs on any two kinds that follow each other; others that are listed below in one pair, by turns, and so each
  * fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
  */
 function looksOf(path: string, index: number): readonly (readonly [number, 'light' | 'dark'])[] {
@@ -128,7 +128,7 @@ test('axe finds nothing on any page, light and dark, at three widths', async ({ 
     ),
   );
   const faults = new Map<string, string[]>();
-  const tell = (fault: string, where: string) => void faults.set(fault, [...(faults.get(fault) ?? []), where]);
+  const report = (fault: string, where: string) => void faults.set(fault, [...(faults.get(fault) ?? []), where]);
   const pages = sitePages();
   expect(
     KINDS.filter((path) => !pages.includes(path)),
@@ -144,9 +144,9 @@ test('axe finds nothing on any page, light and dark, at three widths', async ({ 
       await page.emulateMedia({ colorScheme: scheme });
       await page.setViewportSize({ width, height: 800 });
       await expect(page.locator('html.dark')).toHaveCount(scheme === 'dark' ? 1 : 0);
-      for (const fault of await checkAccessibility(page)) tell(fault, `${path} ${width} ${scheme}`);
+      for (const fault of await checkAccessibility(page)) report(fault, `${path} ${width} ${scheme}`);
       if ((await page.evaluate(() => document.documentElement.scrollWidth)) > width)
-        tell('wider than the window', `${path} ${width}`);
+        report('wider than the window', `${path} ${width}`);
     }
   }
   expect(Object.fromEntries([...faults].map(([fault, where]) => [fault, where.slice(0, 4)]))).toEqual({});
@@ -250,7 +250,7 @@ test('dark and light', async ({ page }) => {
   await expect.poll(background).not.toBe(light);
 });
 
-test('a browser without WebGPU is told what to do', async ({ page }) => {
+test('a browser without WebGPU shows what to do', async ({ page }) => {
   const complaints = watchPage(page);
   await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
   await page.goto(`${origin}/live`);

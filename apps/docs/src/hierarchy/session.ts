@@ -23,7 +23,7 @@ export interface HierarchyView {
   readonly turn: number;
 }
 
-/** What the page tells of a tree. */
+/** What the page shows of a tree. */
 export interface HierarchyFacts extends BvhStatistics {
   readonly triangles: number;
   readonly endPointOverlap: number;
@@ -32,7 +32,7 @@ export interface HierarchyFacts extends BvhStatistics {
   readonly milliseconds: number;
 }
 
-/** What the page tells of an image. */
+/** What the page shows of an image. */
 export interface ImageFacts {
   /** Nodes and triangles that a ray which meets the root's box looks at, on the average. */
   readonly meanCost: number;

@@ -40,7 +40,7 @@ function createSphere(): Scene {
   return scene;
 }
 
-/** The same above a table of light and dark squares, which show what goes through the sphere and how it is bent. */
+/** The same above a table of light and dark squares, which show how the sphere transmits and refracts light. */
 function createMaterialScene(): Scene {
   const scene = createSphere();
   const [sphereMesh, table] = scene.meshes as [Scene['meshes'][number], Scene['meshes'][number]];

@@ -3,7 +3,7 @@ import type { Material } from '@glanz/scene';
 import { ToneMapPass, type ToneMap } from '@glanz/tonemap';
 import { createLiveScene, type LiveSceneName } from './scenes';
 
-/** What a live image tells its page. */
+/** What a live image reports to its page. */
 export interface LiveStatus {
   readonly stage: 'prepare' | 'render' | 'done';
   readonly samples: number;
