@@ -146,10 +146,10 @@ test('Getting started, its files and commands', async ({ page: browser }) => {
   );
 });
 
-test('Getting started, by hand', async ({ page: browser }) => {
-  wanted('hand');
+test('Getting started, without the viewer', async ({ page: browser }) => {
+  wanted('canvas');
   const files = ['index.html', 'src/show.ts', 'src/main.ts'];
-  await asPasted(browser, 'hand', 'getting-started', files, '@glanz/renderer', 'In a browser, by hand');
+  await asPasted(browser, 'canvas', 'getting-started', files, '@glanz/renderer', 'In a browser, without the viewer');
 });
 
 test('the renderer, as its README begins', async ({ page: browser }) => {
