@@ -1,4 +1,4 @@
-import { bvhAnyHit, bvhClosestHit } from '@glanz/bvh/wgsl';
+import { bvhAnyHit, bvhClosestHit, bvhOffset } from '@glanz/bvh/wgsl';
 import { openpbr, openpbrMedium, openpbrPhase, openpbrSubsurface } from '@glanz/openpbr';
 import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
@@ -22,7 +22,7 @@ import areaLightGathering from '../lights/area_light_gathering.wesl';
 import { lightsModule } from '../lights/lights.wgsl';
 import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../storage/resources';
 import resolve from '../film/resolve.wesl';
-import { shadeModule } from './shade.wgsl';
+import shade from './shade.wesl';
 import { straight } from '../materials/straight.wgsl';
 import { materialModule, opacityModule, surfaceModule } from '../materials/surface.wgsl';
 import traversal from '../geometry/traversal.wesl';
@@ -187,7 +187,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     }
     case 'shade':
       return {
-        root: shadeModule(path, surface, lightsModule(surface), openpbr, energyHost),
+        root: shade,
+        host: [path, surface, lightsModule(surface), openpbr, energyHost, bvhOffset],
         resources: [
           'frame',
           'batch',
