@@ -50,7 +50,7 @@ export class GpuClock {
     work: () => Promise<void>,
   ): Promise<{ readonly busy: number; readonly span: number; readonly submissions: number }> {
     const queue = this.#device.queue;
-    // On the prototype: the binding may hand out a new queue object at each look.
+    // On the prototype: the binding may return a new queue object at each look.
     const prototype = Object.getPrototypeOf(queue) as Submitter;
     const original = prototype.submit;
     const stamp = (index: number) => this.#stamp(index);

@@ -167,11 +167,11 @@ function wrapWebGpu(first: object): void {
   wrap(GPUAdapter.prototype, 'requestDevice', async (_self, call) => {
     const device = (await call()) as GPUDevice;
     const real = device.lost;
-    let tell: (info: GPUDeviceLostInfo) => void = () => undefined;
-    const injected = new Promise<GPUDeviceLostInfo>((resolve) => (tell = resolve));
+    let resolveLost: (info: GPUDeviceLostInfo) => void = () => undefined;
+    const injected = new Promise<GPUDeviceLostInfo>((resolve) => (resolveLost = resolve));
     const own: Device = {
       lose: (reason) => {
-        if (reason === 'unknown') tell({ reason, message: 'injected loss' } as GPUDeviceLostInfo);
+        if (reason === 'unknown') resolveLost({ reason, message: 'injected loss' } as GPUDeviceLostInfo);
         device.destroy();
       },
       scopes: [],

@@ -23,7 +23,7 @@ import { machine } from '../machine';
 /** Set in the processes that this benchmark starts: what they are to do. */
 const CHILD = 'GLANZ_BENCH_EQUAL_TIME';
 
-/** What a child is told: a plan, and the file for what became of it. */
+/** Arguments of a child process: a plan, and the file for its result. */
 type Job = { readonly out: string } & (
   | { readonly kind: 'measure'; readonly plan: MeasurementPlan }
   | { readonly kind: 'reference'; readonly plan: ReferencePlan }
@@ -72,7 +72,7 @@ async function inChild<T>(job: Job): Promise<T | string> {
   let messages = '';
   child.stderr.setEncoding('utf8').on('data', (text: string) => {
     messages = (messages + text).slice(-2000);
-    // What the driver and three warn of is kept for failures; our own lines go on.
+    // What the driver and three warn of is kept for failures; our own lines are printed.
     for (const line of text.split('\n'))
       if (line.startsWith('equal-time: ')) process.stderr.write(`${line.slice(12)}\n`);
   });

@@ -52,7 +52,7 @@ export const benchmark: Benchmark = {
     fault: { type: 'string', help: `of ${FAULTS.join(', ')}; default all` },
     only: { type: 'string', help: 'part of the names of points, e.g. "in resize"' },
     every: { type: 'string', help: 'takes each k-th trial' },
-    journal: { type: 'string', help: 'file that notes each trial, for a run that goes on where another stopped' },
+    journal: { type: 'string', help: 'file that notes each trial, for a run that resumes another' },
   },
   async run({ log, quick, gpu: name, values }) {
     const subjects = list(values['subject'], SUBJECTS, 'subject');

@@ -126,7 +126,7 @@ async function measure({ log, quick, gpu, values }: BenchmarkContext) {
       ({ scene, built, times }) => built - scene - times.checkMs - times.textMs,
     ],
     ['of that, shapes written to the GPU', ({ built, uploaded, times }) => uploaded - built - times.lightMs],
-    ['of that, lights, surroundings and tables', ({ times }) => times.lightMs],
+    ['of that, lights, environment and tables', ({ times }) => times.lightMs],
     ['of that, waiting for pipelines', ({ uploaded, prepared }) => prepared - uploaded],
     ['hierarchies', ({ times }) => times.bvhMs],
     ['pipelines', ({ times }) => times.compileMs],

@@ -12,8 +12,8 @@ const CHOICES: readonly Choice[] = ['tree', 'power'];
 
 /** Rows and columns of rooms in the hall. */
 const ROOMS = 8;
-/** Lamps in a room. */
-const LAMPS = 16;
+/** Lights in a room. */
+const LIGHTS_PER_ROOM = 16;
 
 /** A quad between two corners and two edges, wound so that its front is where the edges' cross product points. */
 function addQuad(
@@ -35,7 +35,7 @@ function addQuad(
 }
 
 /**
- * A floor with walls between rooms of 2 m, each lit by small lamps of its own: 1,024 quads, of which a place sees a
+ * A floor with walls between rooms of 2 m, each lit by small lights of its own: 1,024 quads, of which a place sees a
  * few.
  */
 function hall(): Scene {
@@ -48,7 +48,7 @@ function hall(): Scene {
     ] as const
   ).entries())
     scene.materials.push({
-      name: `lamp ${i}`,
+      name: `light ${i}`,
       parameters: { base_weight: 0, specular_weight: 0, emission_color: color, emission_luminance: 40 },
     });
   const size = 2 * ROOMS;
@@ -61,9 +61,9 @@ function hall(): Scene {
     }
   }
   for (let room = 0; room < ROOMS * ROOMS; room++) {
-    for (let lamp = 0; lamp < LAMPS; lamp++) {
-      const x = 2 * (room % ROOMS) + 0.3 + 0.45 * (lamp % 4);
-      const z = 2 * Math.floor(room / ROOMS) + 0.3 + 0.45 * Math.floor(lamp / 4);
+    for (let light = 0; light < LIGHTS_PER_ROOM; light++) {
+      const x = 2 * (room % ROOMS) + 0.3 + 0.45 * (light % 4);
+      const z = 2 * Math.floor(room / ROOMS) + 0.3 + 0.45 * Math.floor(light / 4);
       addQuad(scene, [x, 1.0, z], [0.05, 0, 0], [0, 0, 0.05], 1 + (room % 2));
     }
   }
@@ -185,7 +185,7 @@ export const benchmark: Benchmark = {
         runs,
         maxDepth: 4,
         choices,
-        triangles: { 'few lights': 2, 'many lights': 2 * ROOMS * ROOMS * LAMPS },
+        triangles: { 'few lights': 2, 'many lights': 2 * ROOMS * ROOMS * LIGHTS_PER_ROOM },
       },
       gpu: { name: adapterName, software },
       figures,

@@ -9,7 +9,7 @@ import { openPlayground } from '../main-thread/page';
 const FRAME = { value: 16, relation: '<=', source: 'one frame' } as const;
 
 /**
- * What is loaded: one mesh with and without normals, and one of many parts whose lamp is made of tens of thousands of
+ * What is loaded: one mesh with and without normals, and one of many parts whose light is made of tens of thousands of
  * triangles.
  */
 async function models(

@@ -1,5 +1,5 @@
 import { launchChromium } from '../browser/chromium';
-import { latency, turn, watchFrames, type Turned } from '../browser/hand';
+import { latency, turn, watchFrames, type Turned } from '../browser/drag';
 import { firstFilm, servePlayground } from '../browser/playground';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 
@@ -13,9 +13,9 @@ const SIZES = [
 const quantile = (values: readonly number[], q: number) =>
   [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(q * values.length))]!;
 
-/** The playground in Chromium under a hand that turns the push-button. */
+/** The playground in Chromium while the user turns the push-button. */
 export const benchmark: Benchmark = {
-  description: 'the playground in Chromium while a hand turns the model: frames, resolution, and latency',
+  description: 'the playground in Chromium while the user turns the model: frames, resolution, and latency',
   options: { hardware: { type: 'string', help: '"yes": on the GPU of the machine' } },
   async run({ log, quick, values }) {
     const gpu = values['hardware'] === 'yes' ? 'hardware' : 'software';
@@ -67,7 +67,7 @@ export const benchmark: Benchmark = {
         for (let i = 0; i < (quick ? 4 : 10); i++) waits.push(await latency(page, at, 700 + 37 * i));
         figures.push(
           timed(
-            `${size}: from a hand's movement to its image`,
+            `${size}: from a pointer movement to its image`,
             'ms',
             waits,
             gpu === 'software' ? { value: 100, relation: '<=', source: 'interaction on a software GPU' } : undefined,
@@ -86,7 +86,7 @@ export const benchmark: Benchmark = {
       settings: {
         model: 'push-button',
         browser: `Chromium ${browser.version()}, headless`,
-        hand: 'a drag, 60 movements a second',
+        input: 'a drag, 60 movements a second',
         clock: "the page's: from a pointer event's time to the end of the GPU's work for the frame that follows it",
       },
       gpu: { name: adapter, software: gpu === 'software' },

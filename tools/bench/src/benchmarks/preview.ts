@@ -85,7 +85,7 @@ interface Orbited {
   readonly scales: number[];
 }
 
-/** Orbits for a while as a hand does, an event for each frame of the screen. */
+/** Orbits for a while as a user does, an event for each frame of the screen. */
 async function orbit(viewer: Viewer, milliseconds: number, width: number): Promise<Orbited> {
   const result: Orbited = { intervals: [], costs: [], scales: [] };
   let last: number | undefined;
@@ -111,7 +111,7 @@ const done = (viewer: Viewer) =>
 const nextFrame = (viewer: Viewer) =>
   new Promise<void>((resolve) => void viewer.on('frame', () => resolve(), { once: true }));
 
-/** How long it takes from a hand's movement to its image, out of rest and out of the midst of refining. */
+/** How long it takes from a pointer movement to its image, at rest and while refining. */
 async function latency(viewer: Viewer, device: GPUDevice, rest: number): Promise<number> {
   await wait(rest);
   const from = performance.now();
@@ -125,7 +125,7 @@ const spread = (values: readonly number[]) => [...values].sort((a, b) => a - b);
 const quantile = (values: readonly number[], q: number) =>
   spread(values)[Math.min(values.length - 1, Math.floor(q * values.length))] as number;
 
-/** The viewer's preview under a hand that orbits: frame times, resolution, and how soon a movement is seen. */
+/** The viewer's preview while the user orbits: frame times, resolution, and how soon a movement is seen. */
 export const benchmark: Benchmark = {
   description:
     'the preview of the viewer while orbiting: frames, resolution, and latency, on a screen of 60 frames a second',

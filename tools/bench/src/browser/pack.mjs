@@ -13,7 +13,7 @@ const root = fileURLToPath(new URL('../../../..', import.meta.url));
 const out = join(root, '.gpu-browser');
 const kept = join(root, '.cache/chromium.tar.xz');
 
-const SETUP = `# Source this there, after .gpu/setup.sh: unpacks Chromium and the pages, and tells the benchmarks where they are.
+const SETUP = `# Source this there, after .gpu/setup.sh: unpacks Chromium and the pages, and sets where the benchmarks find them.
 browser=\${GLANZ_BROWSER:-/tmp/browser}
 here=$(cd "$(dirname "\${BASH_SOURCE[0]}")" && pwd)
 if [ ! -x "$browser/chromium" ]; then

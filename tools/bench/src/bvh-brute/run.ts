@@ -20,7 +20,7 @@ export interface BruteOptions {
   readonly seed: number;
   readonly scenes: number;
   readonly raysPerScene: number;
-  /** Every how many rays one goes through the GPU, too. */
+  /** One of this many rays is traced on the GPU, too. */
   readonly gpuEvery: number;
   /** One for each layout. */
   readonly gpus?: readonly GpuTracer[];
@@ -48,7 +48,7 @@ export interface BruteTotals {
    */
   loose: number;
   gpuRays: number;
-  /** The same for the GPU, as far as single precision can tell. */
+  /** The same for the GPU, within single precision. */
   gpuWrong: number;
   /** Rays past an edge so near that single precision may take either side. */
   gpuMarginal: number;
@@ -56,7 +56,7 @@ export interface BruteTotals {
 
 const IDENTITY = Float32Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
 
-/** Every so many rays one goes through the wide layout, too. */
+/** One of this many rays is traced in the wide layout, too. */
 const WIDE_EVERY = 4;
 
 /** A seed of one scene. */

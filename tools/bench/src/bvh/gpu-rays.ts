@@ -6,7 +6,7 @@ import { compose, wgslModule } from '@glanz/wgsl';
 import type { BenchMesh } from './meshes';
 import { plainQuery } from './plain-kernel';
 
-/** Ways to lay nodes out in the GPU's memory and to go through them; `plain` is BVH2 gone through as others do. */
+/** Layouts of nodes in the GPU's memory with their traversals; `plain` is BVH2 with the usual traversal. */
 export const LAYOUTS = ['BVH2', 'wide', 'plain'] as const;
 export type Layout = (typeof LAYOUTS)[number];
 

@@ -137,7 +137,7 @@ export function assembly(name: string, parts: number, segments: number): BenchMe
   return { name, positions, indices };
 }
 
-/** A folder of test models, `GLANZ_ASSETS` or `shared/assets` beside the checkout; undefined if it is not there. */
+/** A folder of test models, `GLANZ_ASSETS` or `shared/assets` beside the checkout; undefined if it is missing. */
 function assetsFolder(): string | undefined {
   const named = process.env['GLANZ_ASSETS'];
   if (named) return existsSync(named) ? named : undefined;

@@ -11,7 +11,7 @@ import { SCENES } from './scenes';
 export interface ReferencePlan {
   readonly scene: string;
   readonly size: number;
-  /** Samples per pixel in all: two independent halves, which tell the noise. */
+  /** Samples per pixel in all: two independent halves, which measure the noise. */
   readonly samples: number;
   readonly gpu?: string;
   readonly file: string;

@@ -82,7 +82,7 @@ const pushButton: EqualTimeScene = {
   },
 };
 
-/** Model and surroundings of the second product scene, below the folder of sample assets. */
+/** Model and environment of the second product scene, below the folder of sample assets. */
 export const HELMET_FILES = {
   model: 'DamagedHelmet/DamagedHelmet.glb',
   environment: 'env/royal_esplanade_256.hdr',

@@ -49,7 +49,7 @@ export function joinDetails(pieces: readonly EqualTimeDetails[]): EqualTimeDetai
 /** What two contestants can be compared by. */
 export type Quantity = 'relMSE' | 'noise' | 'FLIP';
 
-/** Below this share of the reference's own noise, an error cannot be told from none. */
+/** Below this share of the reference's own noise, an error cannot be distinguished from none. */
 const RESOLUTION = 0.05;
 
 export const geometricMean = (values: readonly number[]) =>
@@ -67,7 +67,7 @@ export function measurementOf(
 const at = (m: Measurement, budget: number, of: (point: Point) => number) =>
   mean(m.points.map((run) => of(run[budget]!)));
 
-/** A quantity at a budget (by its index), mean over runs. Never below what the reference can tell. */
+/** A quantity at a budget (by its index), mean over runs. Never below what the reference can resolve. */
 export function valueAt(m: Measurement, quantity: Quantity, budget: number): number {
   if (quantity === 'noise') return m.noise[budget] ?? NaN;
   if (quantity === 'FLIP') return at(m, budget, ({ flip }) => flip);

@@ -11,7 +11,7 @@ const keyOf = ({ subject, point, fault }: TrialName) => `${subject} ${fault} ${p
 /**
  * The trials of a campaign and how they ended. With a file each trial is noted there as it begins and ends, one JSON
  * value a
- * line: a run that was interrupted goes on where it stopped, and a trial that ended its process is known by name.
+ * line: a run that was interrupted resumes where it stopped, and a trial that ended its process is known by name.
  */
 export class Journal {
   readonly #file: string | undefined;

@@ -64,7 +64,7 @@ async function run({
   const { recorder } = page.glanzFaults;
   recorder.clear(plan.point === undefined ? undefined : { point: plan.point, fault: plan.fault! });
   const errors: string[] = [];
-  const told = (error: unknown) => {
+  const report = (error: unknown) => {
     const code = (error as { code?: unknown }).code;
     errors.push(
       typeof code === 'string' && code.includes('/') ? code : `untyped: ${String((error as Error)?.message ?? error)}`,
@@ -96,7 +96,7 @@ async function run({
       pixelRatio: 0.25,
       environment: { type: 'constant', radiance: [1, 1, 1] },
     });
-    viewer.on('error', told);
+    viewer.on('error', report);
     await viewer.load(page.file(base64, 'model.glb'));
     await done(80);
     enter('edit');
@@ -109,7 +109,7 @@ async function run({
     const read = () => viewer!.tracer!.read('beauty');
     const pixels = await read().catch(async (error: unknown) => {
       // A loss may come with the reading itself: the film that follows is read then.
-      told(error);
+      report(error);
       await wait(200);
       await done(50);
       return read();
@@ -133,10 +133,10 @@ async function run({
   try {
     film = await bounded();
   } catch (error) {
-    told(error);
+    report(error);
     const destroyed = viewer;
     destroyed?.destroy();
-    if (!hung) film = await bounded().catch((again: unknown) => (told(again), ''));
+    if (!hung) film = await bounded().catch((again: unknown) => (report(again), ''));
   }
   enter('destroy');
   viewer?.destroy();

@@ -55,7 +55,7 @@ export function workOf(
   return url === '' ? 'browser' : 'own';
 }
 
-/** Sums up what a profile says, by the nearest caller that tells. */
+/** Sums up what a profile says, by the nearest caller that is known. */
 export function sharesOf(
   { nodes, samples, timeDeltas }: Profile,
   sources: ReadonlyMap<string, readonly string[]>,

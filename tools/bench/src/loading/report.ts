@@ -138,7 +138,7 @@ export function loadingMarkdown({ machine, details }: LoadingReport): string {
     '',
     `How long does it take from a glTF file to a scene that can be rendered? Glanz beside three.js ${three}: \`GLTFLoader\` with its \`DRACOLoader\` and \`MeshoptDecoder\`. Five models: large images (DamagedHelmet), Draco (chess-board), meshopt (pirate, bunny), many parts with images (lamborghini).`,
     '',
-    '**What is compared.** Both loaders end with every image decoded and every vertex unpacked, neither has put anything on a graphics card. In a browser both leave decoded images as `ImageBitmap`s, so no pixel goes through JavaScript. What differs:',
+    '**What is compared.** Both loaders end with every image decoded and every vertex unpacked, neither has put anything on a graphics card. In a browser both leave decoded images as `ImageBitmap`s, so no pixel passes through JavaScript. What differs:',
     '',
     '- Glanz checks what it reads (every index, every float, every byte range; broken files are a scene with a warning or a typed error), brings vectors to length 1 and makes MikkTSpace tangents where a material needs them and the file has none (DamagedHelmet). three.js does none of it; its shaders make up tangents.',
     '- Glanz decodes the images that a path tracer looks at; three.js also those of baked occlusion.',

@@ -115,7 +115,7 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
             .map(({ pid, tid }) => `${pid}/${tid}`),
         );
         const begin = traceEvents.find(({ name, args }) => name === 'TimeStamp' && args?.data?.message === 'begin');
-        if (!begin) throw new Error('the trace does not tell where the load begins');
+        if (!begin) throw new Error('the trace does not show where the load begins');
         const events = traceEvents.filter(
           ({ ph, pid, tid, dur, ts }) => ph === 'X' && dur !== undefined && ts >= begin.ts && main.has(`${pid}/${tid}`),
         );
@@ -141,7 +141,7 @@ export async function openPlayground(profile: boolean, gpu: Chromium['gpu'] = 's
 
 type Task = Pick<TraceEvent, 'pid' | 'tid' | 'ts'> & { dur: number; tdur: number };
 
-/** Microseconds between a task and what its promises have called, which the browser tells apart. */
+/** Microseconds between a task and what its promises have called, which the browser separates. */
 const TOGETHER = 200;
 
 /**

@@ -46,7 +46,7 @@ describe('values', () => {
     for (const t of [10, 100, 300, 1000, 5000]) expect(valueAfter(m, 'relMSE', 'gpuMs', t) * t).toBeCloseTo(0.1, 8);
   });
 
-  it("never go below what the reference's noise lets one tell", () => {
+  it("never go below what the reference's noise resolves", () => {
     const m = measurement('box', 'glanz', 1e-4);
     const sunk = {
       ...m,

@@ -44,7 +44,7 @@ describe('a campaign in a process of its own', () => {
       else note({ ended: { ...trial, ending: 'image' } });
     }`;
 
-  it('that dies in a trial counts it as a crash, and goes on with the next', async () => {
+  it('that dies in a trial counts it as a crash, and continues with the next', async () => {
     const file = join(folder, 'b.jsonl');
     await untilDone([process.execPath, '-e', program(file)], file, process.env);
     expect(new Journal(file).outcomes.map(({ point, ending }) => `${point} ${ending}`)).toEqual([

@@ -15,7 +15,7 @@ describe('slope', () => {
     expect(ci95).toBeCloseTo(0, 12);
   });
 
-  it('comes with an interval: by hand for four points', () => {
+  it('comes with an interval: computed on paper for four points', () => {
     // Residuals ∓0.5 ±0.5 about y = 0.2 x + 0.2: sum of squares 0.8, over 2 degrees of freedom and Σ(x − x̄)² = 5.
     const { slope: value, ci95 } = slope([
       [0, 0],

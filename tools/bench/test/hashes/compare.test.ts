@@ -25,7 +25,7 @@ describe('differences', () => {
     expect(differences([entry('a', '1'), entry('b', '2')], [entry('a', '1')], true)).toEqual([]);
   });
 
-  it('tells a rounding from a fault: the change of the mean, NaN where a mean is none', () => {
+  it('distinguishes a rounding from a fault: the change of the mean, NaN where a mean is none', () => {
     expect(differences([entry('a', '1', [0.5])], [entry('a', '2', [0.5])])).toMatchObject([{ change: 0 }]);
     expect(differences([entry('a', '1', [0.5])], [entry('a', '2', [NaN])])).toMatchObject([{ change: NaN }]);
   });

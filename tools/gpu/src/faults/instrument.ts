@@ -59,7 +59,7 @@ function gpuError(filter: GPUErrorFilter, message: string): GPUError {
   return { message } as GPUError;
 }
 
-/** Dawn for Node keeps listeners, and what they capture, for good: here that is not the device. */
+/** Dawn for Node never releases listeners, nor what they capture: here that is not the device. */
 function collectUncaptured(device: GPUDevice, recorder: FaultRecorder, listeners: ReadonlySet<unknown>): void {
   const reference = new WeakRef(device);
   device.addEventListener('uncapturederror', (event) => {

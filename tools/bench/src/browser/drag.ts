@@ -1,7 +1,7 @@
 import { setTimeout as wait } from 'node:timers/promises';
 import type { Page } from 'playwright';
 
-/** What a canvas showed while a hand turned the model, by the page's clock. */
+/** What a canvas showed during a drag, by the page's clock. */
 export interface Turned {
   /** Milliseconds from one frame's call for the canvas to the next. */
   readonly intervals: number[];
@@ -20,7 +20,7 @@ interface Frame {
 /** What {@link watchFrames} leaves in the page. */
 interface Seen {
   readonly frames: Frame[];
-  /** The latest movement of the hand, by the same clock as frames. */
+  /** The latest pointer movement, by the same clock as frames. */
   moved: number;
 }
 
@@ -54,7 +54,7 @@ const clear = (page: Page) =>
   page.evaluate(() => (globalThis as unknown as { seen: Seen }).seen.frames.splice(0).length);
 const frames = (page: Page) => page.evaluate(() => (globalThis as unknown as { seen: Seen }).seen);
 
-/** Turns the model by a drag that goes on for a while, one movement for each frame of a screen. */
+/** Turns the model by a drag of some time, one movement for each frame of a screen. */
 export async function turn(page: Page, at: readonly [x: number, y: number], milliseconds: number): Promise<Turned> {
   const [x, y] = at;
   await page.mouse.move(x, y);
@@ -79,7 +79,7 @@ export async function turn(page: Page, at: readonly [x: number, y: number], mill
   };
 }
 
-/** Milliseconds from a movement of the hand, out of rest, until the GPU has drawn the first image that follows it. */
+/** Milliseconds from a pointer movement, at rest, until the GPU has drawn the first image that follows it. */
 export async function latency(page: Page, at: readonly [x: number, y: number], rest: number): Promise<number> {
   const [x, y] = at;
   await page.mouse.move(x, y);
