@@ -17,7 +17,7 @@ function exportsOf(checker, source) {
 
 const hasDoc = (checker, symbol) => ts.displayPartsToString(symbol.getDocumentationComment(checker)).trim().length > 0;
 
-/** Public methods, accessors and fields of a class or interface that carry no comment; told, not judged. */
+/** Public methods, accessors and fields of a class or interface that have no comment; listed, not failed. */
 function bareMembers(checker, symbol) {
   if (!(symbol.flags & (ts.SymbolFlags.Class | ts.SymbolFlags.Interface))) return { total: 0, bare: 0 };
   const members = [...(symbol.members?.values() ?? [])].filter((member) => {

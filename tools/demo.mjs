@@ -35,7 +35,7 @@ await main(async () => {
     `\n${relative(process.cwd(), image) || image} is done, after ${Math.round((performance.now() - start) / 1000)} s.\n`,
   );
   process.stderr.write(
-    'Next: npm start opens the playground, where you drop a .glb of your own; npm run glanz -- --help tells about the command.\n',
+    'Next: npm start opens the playground, where you drop a .glb of your own; npm run glanz -- --help describes the command.\n',
   );
   return code;
 });

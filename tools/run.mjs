@@ -94,7 +94,7 @@ const tasks = {
     },
   },
   'release:dry': {
-    help: 'pack all packages as a release would, check them, and tell the next versions',
+    help: 'pack all packages as a release would, check them, and print the next versions',
     build: true,
     run: (args) => node(join(root, 'tools/release-dry.mjs'), args),
   },

@@ -1,7 +1,7 @@
 // What our packages publish, as a plugin of esbuild for their builds, and of Vite for pages that are made from their
 // sources.
 //
-// 1. It tells bundlers which top-level constants may be dropped. `const coat = wgslModule(…, [other.module])` looks
+// 1. It marks for bundlers which top-level constants may be dropped. `const coat = wgslModule(…, [other.module])` looks
 // like
 //    a side effect: a call, and a property read in its arguments. `sideEffects: false` helps only across files, and an
 //    entry here is one file with its chunks. So each computed initializer becomes `/* @__PURE__ */ (() => …)()`, which

@@ -15,14 +15,14 @@ export class Verdicts {
   /** @type {string[]} */
   table = [];
 
-  /** Counts one verdict; a failing one is told with `message`. */
+  /** Counts one verdict; a failing one is reported with `message`. */
   expect(condition, message) {
     if (condition) this.passed++;
     else this.fail(message);
     return condition;
   }
 
-  /** Runs a step; what it throws is one failure more, and the check goes on. */
+  /** Runs a step; what it throws is one failure more, and the check continues. */
   async attempt(what, step) {
     try {
       await step();

@@ -282,7 +282,7 @@ export function closeUp(line) {
     const separates = /\w/.test(before) && /\w/.test(after);
     return separates || (OPERATOR.test(before) && OPERATOR.test(after)) ? spaces : '';
   });
-  // 1.0 is 1. and 0.5 is .5; what a substitution may go on with stays.
+  // 1.0 is 1. and 0.5 is .5; what a substitution may continue stays.
   return closed.replace(/(?<=\d\.)0(?=[^\w.])/g, '').replace(/(?<![\w.])0(?=\.\d)/g, '');
 }
 

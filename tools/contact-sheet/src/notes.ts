@@ -11,10 +11,10 @@ export const NOTES: Readonly<Record<string, string>> = {
   NegativeScaleTest:
     'The column "back" shows its crosses for the same reason as TextureSettingsTest: nothing is culled. That mirrored parts are wound and lit rightly shows in the balls below, which are alike.',
   'hotel-room':
-    'A closed room seen from outside, as all models are framed; walls that rasterisers cull hide what is in it. It has no lamps, so it is dark within: its own image was lit in the viewer.',
+    'A closed room seen from outside, as all models are framed; walls that rasterisers cull hide what is in it. It has no lights, so it is dark within: its own image was lit in the viewer.',
   'CornellBox-babylon':
     'Framed like all models, from the front right and above; the box has a camera of its own that looks straight in.',
-  'CornellBox-bevy': 'Noisy at 16 samples: the box is lit by a small lamp through one opening.',
+  'CornellBox-bevy': 'Noisy at 16 samples: the box is lit by a small light through one opening.',
   MixedLightingExample:
     "Overexposed: its sun has 2,049 lux, as glTF asks for, and images here are taken without a camera's exposure. With `--exposure -10` it is right.",
   'geometry-camera-light': 'Overexposed, as MixedLightingExample: its lights are in candela and lux.',
@@ -30,11 +30,11 @@ export const NOTES: Readonly<Record<string, string>> = {
   MorphStressTest: 'At rest; `--animation` and `--time` grow the bars.',
   RecursiveSkeletons: '84 skins share meshes and lie in one another; many copies coincide at rest.',
   MeshPrimitiveModes:
-    'Strips, fans and lists are there. Points and lines have no area, so nothing can be seen of them; four warnings tell.',
+    'Strips, fans and lists are there. Points and lines have no area, so nothing can be seen of them; four warnings say so.',
   PrimitiveModeNormalsTest:
-    'The columns of points and lines are empty, as warnings tell; those of triangles are there, with normals of their own and without (flat).',
+    'The columns of points and lines are empty, as warnings say; those of triangles are there, with normals of their own and without (flat).',
   'blenderio-22_vertex_color':
-    'Five triangles of vertex colours are there; the points and lines beside them are not, as warnings tell.',
+    'Five triangles of vertex colours are there; the points and lines beside them are not, as warnings say.',
   Cameras:
     'Framed like all models; it has a perspective and an orthographic camera of its own (`--camera 0`, `--camera 1`).',
   TransmissionTest:
@@ -47,9 +47,9 @@ export const NOTES: Readonly<Record<string, string>> = {
   'glass-table': 'Its plate has no KHR_materials_volume, so glTF has it thin: nothing behind it is displaced.',
   AlphaBlendModeTest: 'Blended parts cast lighter shadows, in proportion to their opacity.',
   'blenderio-01_vertex_count_32bit':
-    'A blue box. Its triangles are wound inwards and its normals point outwards; the normals count, as a warning tells. Rasterisers cull its outside.',
+    'A blue box. Its triangles are wound inwards and its normals point outwards; the normals count, as a warning says. Rasterisers cull its outside.',
   'webp-babylon': 'Black and rough, as its images are.',
-  UnlitTest: 'Unlit colours are emitted, so that they come out as they are whatever the surroundings.',
+  UnlitTest: 'Unlit colours are emitted, so that they come out as they are in any environment.',
   SpecularTest: 'Dark, as its base colour is black: only the highlights differ.',
   teapot: 'Open below its lid and through its spout, as the original patches are.',
 };

@@ -6,9 +6,9 @@ import type { Row } from './render';
 
 const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 
-/** The page: images first, then what was told of each model. */
+/** The page: images first, then warnings and errors of each model. */
 export function html(rows: readonly Row[], size: number, samples: number): string {
-  const told = rows.filter(
+  const reported = rows.filter(
     ({ error, warnings, badSamples }) => error !== undefined || warnings.length > 0 || badSamples > 0,
   );
   const cell = ({ id, name, note, error, warnings, triangles }: Row) =>
@@ -17,13 +17,13 @@ export function html(rows: readonly Row[], size: number, samples: number): strin
     `<h3 id="${escape(id)}">${escape(name)}</h3><ul>${error === undefined ? '' : `<li class="failed">${escape(error)}</li>`}${badSamples > 0 ? `<li>${badSamples} samples were not numbers</li>` : ''}${warnings.map((warning) => `<li>${escape(warning)}</li>`).join('')}</ul>`;
   return `<!doctype html><meta charset="utf-8"><title>Contact sheet</title>
 <style>body{font:13px system-ui;margin:16px;background:#1b1c1e;color:#ddd}main{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;width:${Math.max(size, 110)}px;overflow-wrap:anywhere}figure div{width:${size}px;height:${size}px;background:#511}.failed{color:#f77}.warned figcaption{color:#fc6}img{image-rendering:pixelated}a{color:inherit}</style>
-<h1>${rows.length} models</h1><p>${size} × ${size}, ${samples} samples. ${rows.filter(({ error }) => error !== undefined).length} failed, ${told.length} with something to tell.</p>
+<h1>${rows.length} models</h1><p>${size} × ${size}, ${samples} samples. ${rows.filter(({ error }) => error !== undefined).length} failed, ${reported.length} with warnings or errors.</p>
 <main>${rows.map(cell).join('\n')}</main>
-<h2>Warnings and errors</h2>${told.map(entry).join('\n')}
+<h2>Warnings and errors</h2>${reported.map(entry).join('\n')}
 `;
 }
 
-/** What one has to tell of warnings: each kind once, with how often. */
+/** Summary of warnings: each kind once, with its count. */
 function summary(warnings: readonly string[]): string {
   const kinds = new Map<string, number>();
   for (const warning of warnings) {
@@ -35,13 +35,13 @@ function summary(warnings: readonly string[]): string {
 
 /** The page of the documentation: a table without images, since many models' licences forbid them. */
 export function assetsMarkdown(rows: readonly Row[], size: number, samples: number): string {
-  const told = rows.filter(({ warnings, badSamples }) => warnings.length > 0 || badSamples > 0);
+  const reported = rows.filter(({ warnings, badSamples }) => warnings.length > 0 || badSamples > 0);
   const failed = rows.filter(({ error }) => error !== undefined);
   const cell = (text: string) => text.replaceAll('|', '\\|').replace(/\s+/g, ' ');
   return [
     '# Test models',
     '',
-    `${rows.length} real models, most of them Khronos samples, each loaded by \`loadGltfFile\`, framed from the front right in the neutral studio and rendered at ${size} × ${size} with ${samples} samples on a software GPU: **${failed.length} failed, ${rows.filter(({ badSamples }) => badSamples > 0).length} with samples that are no numbers, ${told.length} with warnings**. The models are no part of the project, and many of their licences forbid images of them here; \`npm run contact-sheet -- FOLDER\` makes the sheet of any folder, with images, and this page by \`--pages\`.`,
+    `${rows.length} real models, most of them Khronos samples, each loaded by \`loadGltfFile\`, framed from the front right in the neutral studio and rendered at ${size} × ${size} with ${samples} samples on a software GPU: **${failed.length} failed, ${rows.filter(({ badSamples }) => badSamples > 0).length} with samples that are no numbers, ${reported.length} with warnings**. The models are no part of the project, and many of their licences forbid images of them here; \`npm run contact-sheet -- FOLDER\` makes the sheet of any folder, with images, and this page by \`--pages\`.`,
     '',
     '## What looks different, and why',
     '',
@@ -55,11 +55,11 @@ export function assetsMarkdown(rows: readonly Row[], size: number, samples: numb
     '',
     '## Warnings',
     '',
-    'A triangle without area, which nothing can hit, is told of by `validateScene` (`scene/degenerate`); nothing is lost by it. `gltf/primitive` tells of points and lines, and of triangles that were turned round.',
+    'A triangle without area, which nothing can hit, is reported by `validateScene` (`scene/degenerate`); nothing is lost by it. `gltf/primitive` reports points and lines, and of triangles that were turned round.',
     '',
     '| model | |',
     '| --- | --- |',
-    ...told.map(
+    ...reported.map(
       ({ name, warnings, badSamples }) =>
         `| ${cell(name)} | ${summary(warnings)}${badSamples > 0 ? `; ${badSamples} samples that were no numbers` : ''} |`,
     ),

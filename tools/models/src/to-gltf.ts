@@ -32,7 +32,7 @@ function addMaterial(document: Document, material: Material): GltfMaterial {
 
 /**
  * Turns a scene of the kind this package makes into a glTF document: meshes with one material each, cameras, base
- * colour, metalness, roughness, specular weight and emission. Textures, lights and surroundings are not written.
+ * colour, metalness, roughness, specular weight and emission. Textures, lights and the environment are not written.
  */
 export function sceneToGltf(scene: Scene): Document {
   const document = new Document();

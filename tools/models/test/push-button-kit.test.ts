@@ -18,14 +18,14 @@ describe.each(['low', 'medium'] as const)('push-button kit, level %s', (level) =
     const names = scene.instances.map(({ name }) => name);
     expect(new Set(names).size).toBe(names.length);
     const { lenses, legends, bezels, mountings, blocks } = PUSH_BUTTON_KIT;
-    const told = [
+    const listed = [
       ...Object.keys(lenses).map((name) => `Lens ${name}`),
       ...legends.map((name) => `Legend ${name}`),
       ...bezels.map((name) => `Bezel ${name}`),
       ...Object.values(mountings).flat(),
       ...Object.values(blocks).flat(),
     ];
-    expect(told.filter((name) => !names.includes(name))).toEqual([]);
+    expect(listed.filter((name) => !names.includes(name))).toEqual([]);
     expect(
       Object.values(PUSH_BUTTON_KIT.materials).filter(
         (name) => !scene.materials.some((material) => material.name === name),
@@ -33,7 +33,7 @@ describe.each(['low', 'medium'] as const)('push-button kit, level %s', (level) =
     ).toEqual([]);
   });
 
-  it('legends lie on the faces of the lenses: the axis leaves each lens at the height that is told', () => {
+  it('legends lie on the faces of the lenses: the axis leaves each lens at the height that is given', () => {
     for (const [name, face] of Object.entries(PUSH_BUTTON_KIT.lenses)) {
       const mesh = scene.meshes[scene.instances.find((instance) => instance.name === `Lens ${name}`)!.mesh]!;
       let top = -Infinity;

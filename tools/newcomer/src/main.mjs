@@ -1,4 +1,4 @@
-// npm run newcomer — see README.md. Packs, then hands over to Playwright.
+// npm run newcomer — see README.md. Packs, then starts Playwright.
 import { bin, main, root, stream } from '../../pipeline/process.mjs';
 import { packAll } from '../../pipeline/packed.mjs';
 

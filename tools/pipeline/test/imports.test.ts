@@ -169,7 +169,7 @@ describe('the import check', () => {
       { 'ARCHITECTURE.md': `${ARCHITECTURE}| \`gone\` | x | nothing |\n` },
       /packages\/gone, which does not exist/,
     ],
-  ])('tells of %s', async (_what, changes, message) => {
+  ])('reports %s', async (_what, changes, message) => {
     expect(await judge(changes)).toMatch(message);
   });
 });

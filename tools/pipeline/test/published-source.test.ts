@@ -80,7 +80,7 @@ describe('WGSL templates', () => {
     );
   });
 
-  it('lose zeros of numbers that mean nothing, and none that a substitution goes on', () => {
+  it('lose zeros of numbers that mean nothing, and none that a substitution continues', () => {
     const code = 'const f = () => g(/* wgsl */ `a = 1.0 + 0.5 * 10.05 - 1.0e-3 + b.x0 + 20.0; c = 1.0${d}; e = 0.0;`);';
     expect(preparePublished(code)).toContain('`a=1.+.5*10.05-1.0e-3+b.x0+20.;c=1.0${d}; e = 0.0;`');
   });

@@ -194,7 +194,7 @@ export class GroundTruth {
     return { mean: rgbOf(image, file, ''), standardError: rgbOf(image, file, 'standard_error.'), stats };
   }
 
-  /** The scene with the reference's camera first, and its surroundings. */
+  /** The scene with the reference's camera first, and its environment. */
   async scene(options: GltfOptions = this.#loading): Promise<Scene> {
     const scene = await loadGltfFile(join(this.folder, 'scene.glb'), options);
     scene.materials = scene.materials.map(applyExtras);

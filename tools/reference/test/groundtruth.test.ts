@@ -17,7 +17,7 @@ describe('ground truth', () => {
     300_000,
   );
 
-  it('tells a renderer that loses bounces (the full variant against a render of direct light)', async () => {
+  it('detects a renderer that loses bounces (the full variant against a render of direct light)', async () => {
     const { GroundTruth, compareImages, renderImage } = await import('../src/index');
     const truth = new GroundTruth('cornell_diffuse');
     const { width, height } = truth.description.film;

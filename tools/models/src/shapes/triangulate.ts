@@ -70,7 +70,7 @@ function bridge(outer: Node, hole: Node, rings: readonly Node[]): Node {
     o2.previous = h2;
     return o;
   }
-  throw new RangeError('triangulate: a hole has no clear way to its surroundings');
+  throw new RangeError('triangulate: no edge connects a hole with the outline');
 }
 
 /**
