@@ -71,7 +71,7 @@ describe('EXT_lights_image_based', () => {
       3,
     );
     const environment = (await loadWithLight(Array<string>(6).fill(face))).environment as LatLongEnvironment;
-    // Looking along each horizontal axis with +Y up, the right hand points to forward × up.
+    // Looking along each horizontal axis with +Y up, the right points to forward × up.
     for (const [x, , z] of [AXES[0], AXES[1], AXES[4], AXES[5]]) {
       const right = [-z, 0, x] as const;
       const look = (side: number, up: number) =>

@@ -223,7 +223,7 @@ export class Viewer extends ViewerCamera {
     return scene;
   }
 
-  /** A scene as it was loaded, or as it was edited until its tracer was lost; its variant goes on top. */
+  /** A scene as it was loaded, or as it was edited until its tracer was lost; its variant is applied on top. */
   #take(
     former: PathTracer | undefined,
     first: {
