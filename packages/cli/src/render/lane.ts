@@ -36,7 +36,7 @@ export interface RenderedShot {
   readonly samples: number;
   /** Samples that a checkpoint brought along. */
   readonly resumedSamples: number;
-  /** How often the GPU was lost, and its work went on on a new device. */
+  /** How often the GPU was lost, and its work continued on a new device. */
   readonly gpuLosses: number;
   /** Relative error of the image when it was last looked at; only with `--noise`. */
   readonly noise?: number;
