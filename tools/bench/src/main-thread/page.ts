@@ -1,7 +1,7 @@
 import { launchChromium, type Chromium } from '../browser/chromium';
 import { firstFilm, servePlayground } from '../browser/playground';
 
-/** What the page's own thread did while something went on. */
+/** What the page's main thread did during an action. */
 export interface Blocked {
   /** The longest task, milliseconds of that thread's time: what else the machine does is not in it. */
   readonly longestTask: number;
