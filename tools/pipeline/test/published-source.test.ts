@@ -103,8 +103,10 @@ describe('WGSL templates', () => {
         (path) => `packages/${name}/src/${path}`,
       ),
     );
-    const shaders = files.filter((path) => path.endsWith('.wgsl.ts'));
-    expect(shaders.length).toBeGreaterThan(40);
+    const shaders = files.filter(
+      (path) => path.endsWith('.ts') && readFileSync(`${root}/${path}`, 'utf8').includes('/* wgsl */ `'),
+    );
+    expect(shaders.length).toBeGreaterThan(3);
     for (const path of shaders) {
       const text = readFileSync(`${root}/${path}`, 'utf8');
       expect(templates(preparePublished(text)), path).toEqual(templates(text));

@@ -382,13 +382,13 @@ describe('edits of a live tracer', () => {
 
   it('edits of the environment hold in the order in which they were made, although images take longer', async () => {
     const tracer = await PathTracer.create(device, stage(), options);
-    const picture = (value: number): LatLongEnvironment => ({
+    const imageOf = (value: number): LatLongEnvironment => ({
       ...sky(0),
       width: 1024,
       height: 512,
       data: new Float32Array(1024 * 512 * 3).fill(value),
     });
-    const [first, second] = [picture(0.2), picture(0.7)];
+    const [first, second] = [imageOf(0.2), imageOf(0.7)];
     await Promise.all([
       tracer.setEnvironment(first),
       tracer.setEnvironment(second),
