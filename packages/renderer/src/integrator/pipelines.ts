@@ -3,7 +3,7 @@ import { openpbr, openpbrMedium, openpbrPhase, openpbrSubsurface } from '@glanz/
 import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { inErrorScopes, lossOr } from '../device/error-scopes';
-import { OPACITY_ID, type TexturedParameterInfo } from '../materials/materials';
+import type { TexturedParameterInfo } from '../materials/materials';
 import advance from './advance.wesl';
 import begin from './begin.wesl';
 import connect from './connect.wesl';
@@ -12,19 +12,20 @@ import noise from '../film/noise.wesl';
 import relight from '../film/relight.wesl';
 import position from '../film/position.wesl';
 import energyHost from '../materials/energy.wesl';
-import { featuresModule } from '../film/features.wgsl';
+import layers from '../film/features.wesl';
 import firstLight from './first_light.wesl';
 import generate from './generate.wesl';
 import intersect from './intersect.wesl';
 import media from '../materials/media.wesl';
 import mediaFront from '../materials/media_front.wesl';
 import areaLightGathering from '../lights/area_light_gathering.wesl';
-import { lightsModule } from '../lights/lights.wgsl';
+import lights from '../lights/lights.wesl';
 import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../storage/resources';
 import resolve from '../film/resolve.wesl';
 import shade from './shade.wesl';
-import { straight } from '../materials/straight.wgsl';
-import { materialModule, opacityModule, surfaceModule } from '../materials/surface.wgsl';
+import straight from '../materials/straight.wesl';
+import { materialCases } from '../materials/material-cases';
+import surface from '../materials/surface.wesl';
 import traversal from '../geometry/traversal.wesl';
 
 /** What about a scene decides the text of its kernels. Two scenes with equal features share pipelines. */
@@ -94,13 +95,9 @@ interface KernelText {
 
 function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const { flags } = features;
-  const material = materialModule(features.samplings, features.textured);
-  const surface = surfaceModule(material);
-  const query = (bvhQuery: WgslModule, chosen = flags) => [
-    bvhQuery,
-    traversal,
-    chosen.OPACITY && opacityModule(material, OPACITY_ID),
-  ];
+  const cases = flags.TEXTURES && materialCases(features.samplings, features.textured, flags);
+  const surfaces = [bvhOffset, cases, openpbr, energyHost];
+  const query = (bvhQuery: WgslModule, chosen = flags) => [bvhQuery, traversal, chosen.OPACITY && cases];
   const interiors = [media, openpbrMedium, ...(flags.OPENPBR_SUBSURFACE ? [openpbrSubsurface, energyHost] : [])];
   const filter: ResourceName[] = flags.OPACITY
     ? ['frame', 'batch', 'attributes', 'materials']
@@ -178,7 +175,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           path,
           ...query(flags.NULL_SURFACES ? bvhClosestHit : bvhAnyHit, shadowFlags),
           ...(flags.NULL_SURFACES ? [...interiors, mediaFront] : []),
-          flags.STRAIGHT && straight(surface, openpbr),
+          ...(flags.STRAIGHT ? [straight, ...surfaces] : []),
         ],
         resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'],
         textures: flags.OPACITY === true || flags.STRAIGHT === true,
@@ -188,7 +185,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'shade':
       return {
         root: shade,
-        host: [path, surface, lightsModule(surface), openpbr, energyHost, bvhOffset],
+        host: [path, surface, lights, ...surfaces],
         resources: [
           'frame',
           'batch',
@@ -245,8 +242,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     }
     case 'features':
       return {
-        root: featuresModule(surface, openpbr, energyHost),
-        host: query(bvhClosestHit),
+        root: layers,
+        host: [...query(bvhClosestHit), ...surfaces],
         resources: ['frame', 'batch', 'nodes', ...scene, 'feature_albedo', 'feature_normal', 'feature_ids', ...energy],
         textures: true,
       };

@@ -222,3 +222,27 @@ export const BvhNode = bvhNodeStruct.module;
 export const BvhInstance = bvhInstanceStruct.module;
 export const BvhHit = bvhTypes;
 export const BvhTriangle = bvhTypes;
+
+const meshWord = (field: Parameters<typeof meshStruct.offsetOf>[0]) => meshStruct.offsetOf(field) / 4;
+const bindingWord = (field: Parameters<typeof bindingStruct.offsetOf>[0]) => bindingStruct.offsetOf(field) / 4;
+
+// Words of a mesh's record in the attribute heap, and where its fields are.
+export const MESH_WORDS = meshStruct.size / 4;
+export const MESH_INDICES = meshWord('indices');
+export const MESH_NORMALS = meshWord('normals');
+export const MESH_TANGENTS = meshWord('tangents');
+export const MESH_COLORS = meshWord('colors');
+export const MESH_UV0 = meshWord('uv0');
+export const MESH_UV1 = meshWord('uv1');
+
+// The same of a texture binding.
+export const BINDING_WORDS = bindingStruct.size / 4;
+export const BINDING_PARAMETER = bindingWord('parameter');
+export const BINDING_CHANNELS = bindingWord('channels');
+export const BINDING_SAMPLING = bindingWord('sampling');
+export const BINDING_LAYER = bindingWord('layer');
+export const BINDING_ROW_U = bindingWord('row_u');
+export const BINDING_SCALE = bindingWord('scale');
+export const BINDING_ROW_V = bindingWord('row_v');
+export const BINDING_LOG_SIZE = bindingWord('log_size');
+export const BINDING_OFFSET = bindingWord('offset');
