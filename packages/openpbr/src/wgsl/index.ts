@@ -1,7 +1,7 @@
 export { openPbrStruct, packOpenPbr } from './record';
 export { requiredFeatures, type FeatureOptions, type OpenPbrFlags } from './features';
-export { openpbr } from './bsdf.wgsl';
 export {
+  openpbr,
   openpbrCoat,
   openpbrCosine,
   openpbrDielectric,

@@ -1,5 +1,6 @@
 // The modules in WESL that are published, with their types and documentation.
 import type { WgslModule } from '@glanz/wgsl';
+import bsdf from './bsdf.wesl';
 import coat from './coat.wesl';
 import cosine from './cosine.wesl';
 import dielectric from './dielectric.wesl';
@@ -17,6 +18,38 @@ import opacity from './opacity.wesl';
 import phase from './phase.wesl';
 import subsurface from './subsurface.wesl';
 import transmission from './transmission.wesl';
+
+/**
+ * The whole surface. Directions are unit vectors in the local frame (+z shading normal, +x tangent), away from the
+ * surface; the host turns the frame so that the viewer is above. With `wo` below the surface everything is zero, and
+ * with `wi` below so it is unless the surface lets light through.
+ *
+ * ```wgsl
+ * // Once per hit; the rest takes the same wo. With OPENPBR_TRANSMISSION also from either side.
+ * fn openpbr_prepare(p: OpenPbrParameters, wo: vec3f) -> OpenPbrBsdf
+ * fn openpbr_prepare_side(p: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) -> OpenPbrBsdf
+ * fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f       // f · |cos θ_i|
+ * fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32          // density of openpbr_sample, per solid angle
+ * fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f   // both for the price of one
+ * fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³
+ * // Reflected and transmitted part of uniform light, approximate for tinted metal.
+ * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f
+ * fn openpbr_emission(p: OpenPbrParameters, wo: vec3f) -> vec3f        // radiance
+ * fn openpbr_opacity(p: OpenPbrParameters) -> f32
+ * ```
+ *
+ * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. Diffuse reflection and what
+ * bounces on between the facets are sampled by the cosine. The diffuse lobe below the
+ * dielectric is weighted by (1 - E(μ_i))(1 - E(μ_o))/(1 - E_mean), which is reciprocal and loses nothing (Ashikhmin,
+ * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A thin film takes the place of the
+ * Fresnel factor, and tints what goes through. A coat and fuzz add a lobe each and scale the rest.
+ *
+ * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what
+ * is outside of it; a thin wall has no inside. A facet, once sampled, reflects or refracts by chance, as its Fresnel
+ * factor says. From inside there is no coat to be seen, only its colour on what leaves, and reflections have no tint.
+ * The opaque part of a half transparent surface looks the same from inside as from outside.
+ */
+export const openpbr: WgslModule = bsdf;
 
 /**
  * The GGX microfacet distribution with height-correlated Smith masking (Heitz 2014). `openpbr_alpha` maps roughness and
