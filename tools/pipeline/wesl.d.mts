@@ -38,10 +38,11 @@ export function closeUp(line: string): string;
 
 /** Options for {@link compileWesl}. */
 export interface WeslOptions {
-  /** Leaves out comments, and spaces that separate nothing, and shortens names inside of functions. Default false. */
+  /**
+   * Leaves out comments, empty lines, and spaces that separate nothing, and shortens names inside of functions. Default
+   * false.
+   */
   readonly shrink?: boolean;
-  /** As `shrink`, and without empty lines, so that lines have other numbers than in the file. Default false. */
-  readonly page?: boolean;
 }
 
 /**

@@ -2,7 +2,7 @@
 //
 // `import package::a::b::name;` becomes a dependency, `@if(FLAG) … @elif(FLAG) … @else …` on declarations, members,
 // parameters, statements and imports becomes gates. Nothing else changes, and every line keeps its number: line n of a
-// module's text is line n of its file. No parser of WESL is in what we publish.
+// module's text is line n of its file; what is published has no comments and no empty lines. No parser of WESL is in what we publish.
 //
 // A file of constants is TypeScript's too: see wesl-constants.mjs.
 import { existsSync, readFileSync } from 'node:fs';
@@ -270,6 +270,7 @@ export function parseWesl(text, file = 'module.wesl') {
   return { imports, edits, comments, tokens };
 }
 
+const BASE64 = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/';
 const OPERATOR = /[-+*/%=<>!&|^~]/;
 
 /**
@@ -355,20 +356,27 @@ function resolveModule({ path, name, line }, file, source) {
   );
 }
 
+/** A number ≥ 0 as source maps have it: five bits a digit, the lowest first, after a bit for the sign. */
+function base64Vlq(value) {
+  let digits = '';
+  for (let rest = value * 2; digits === '' || rest > 0; rest >>= 5)
+    digits += BASE64[(rest & 31) | (rest > 31 ? 32 : 0)];
+  return digits;
+}
+
 /**
  * A WESL file as a JavaScript module whose default export is its `WgslModule`. Its name is `<package>/<file>`, with
  * hyphens for underscores. The constants of a file that holds nothing else are exported by their names.
  *
  * @param {string} text
  * @param {string} file Absolute path.
- * @param {{ shrink?: boolean, page?: boolean }} options `shrink`: leaves out comments and spaces, and shortens names in
- *   functions, for what is published. `page`: empty lines too, for a page that is built, which names no lines of its
- *   sources.
+ * @param {{ shrink?: boolean }} options `shrink`: leaves out comments, spaces and empty lines, and shortens names in
+ *   functions, for what is published.
  * @returns {{ code: string, map: { version: 3, sources: string[], sourcesContent: string[], names: string[], mappings:
  * string } }}
  * @throws {WeslError}
  */
-export function compileWesl(text, file, { shrink = false, page = false } = {}) {
+export function compileWesl(text, file, { shrink = false } = {}) {
   const parsed = parseWesl(text, file);
   const { folder, short } = packageOf(file);
   const source = join(folder, 'src');
@@ -405,21 +413,24 @@ export function compileWesl(text, file, { shrink = false, page = false } = {}) {
     .at(-1)
     .replace(/\.wesl$/, '')
     .replaceAll('_', '-')}`;
-  const lines = gatedText(text, parsed, shrink || page);
-  const template = (page ? lines.replace(/\n\n+/g, '\n').trimStart() : lines)
+  // Lines of the result, with their numbers in the file, from 0.
+  const lines = [...gatedText(text, parsed, shrink).split('\n').entries()].filter(([, line]) => !shrink || line !== '');
+  const template = lines
+    .map(([, line]) => line)
+    .join('\n')
     .replace(/[\\`]|\$(?=\{)/g, '\\$&')
     .replace(/[A-Za-z_]\w*/g, (name) => (numbers.has(name) ? `\${${numbers.get(name)}}u` : name));
-  // All on the first line, so that each line of the result is that of the file.
+  // All on the first line, so that lines of the result are those of the template.
   const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`${dependencies.size > 0 ? `, [${[...dependencies.values()].join(', ')}]` : ''});\n`;
   const constants = readConstants(text, file);
-  const mappings = `AAAA${';AACA'.repeat(text.split('\n').length - 1)}`;
+  const mappings = lines.map(([number], i) => `AA${base64Vlq(number - (lines[i - 1]?.[0] ?? 0))}A`).join(';');
   return {
     code: constants ? code + exportedConstants(constants) : code,
     map: { version: 3, sources: [file.split(/[\\/]/).at(-1)], sourcesContent: [text], names: [], mappings },
   };
 }
 
-/** For esbuild and tsup. @param {{ shrink?: boolean, page?: boolean }} options As for {@link compileWesl}. */
+/** For esbuild and tsup. @param {{ shrink?: boolean }} options As for {@link compileWesl}. */
 export const weslSource = (options = {}) => ({
   name: 'wesl',
   setup(build) {
@@ -434,17 +445,17 @@ export const weslSource = (options = {}) => ({
   },
 });
 
-/** For Vite, Vitest and VitePress. What they build are pages. */
+/** For Vite, Vitest and VitePress. What they build is shrunk. */
 export const weslModules = () => {
-  let page = false;
+  let shrink = false;
   return {
     name: 'wesl',
     enforce: 'pre',
-    configResolved: ({ command }) => void (page = command === 'build'),
+    configResolved: ({ command }) => void (shrink = command === 'build'),
     transform: (text, id) => {
       if (!id.endsWith('.wesl')) return undefined;
-      const { code, map } = compileWesl(text, id, { page });
-      return { code, map: page ? null : map };
+      const { code, map } = compileWesl(text, id, { shrink });
+      return { code, map: shrink ? null : map };
     },
   };
 };

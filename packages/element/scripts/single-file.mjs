@@ -110,7 +110,7 @@ export async function buildSingleFile(folder, to) {
     const { outputFiles } = await build({
       ...SETTINGS,
       stdin,
-      plugins: [beside(files), packedWasm(folder), weslSource({ page: true }), sources(missing)],
+      plugins: [beside(files), packedWasm(folder), weslSource({ shrink: true }), sources(missing)],
     });
     await writeFile(join(to, name), outputFiles[0].contents);
     return name;

@@ -149,7 +149,7 @@ describe('imports', () => {
       'import package::light_record::{LIGHT_SPOT, Light};\nimport package::light_record::LIGHT_SPOT;\nconst a = LIGHT_SPOT + MY_LIGHT_SPOT;';
     const { head, tail, text: template } = compiled(text, true);
     expect(head).toContain('import { LIGHT_SPOT as number0 } from "../light-record";import { Light as module0 }');
-    expect(template).toBe('\n\nconst a=${number0}u+MY_LIGHT_SPOT;');
+    expect(template).toBe('const a=${number0}u+MY_LIGHT_SPOT;');
     expect(tail).toBe(', [module0]);\n');
   });
 
@@ -166,11 +166,11 @@ describe('the text', () => {
     expect(new Function(`return ${/`[\s\S]*`/.exec(code)![0]}`)()).toBe('// `a` \\ ${b}\nconst x = 1;');
   });
 
-  it('is published without comments and spaces, line by line', () => {
+  it('is published without comments, spaces and empty lines', () => {
     const text =
       'const a = 1; // why\n/* and\n so */ const b = a - -a;\nfn f() {\n  @if(A && B) x = a; @else x = - b;\n}';
     expect(compiled(text, true).text).toBe(
-      'const a=1;\n\nconst b=a- -a;\nfn f(){\n//#if A&&B x=a;//#else x= -b;//#endif\n}',
+      'const a=1;\nconst b=a- -a;\nfn f(){\n//#if A&&B x=a;//#else x= -b;//#endif\n}',
     );
   });
 
@@ -194,6 +194,10 @@ describe('the text', () => {
       names: [],
       mappings: 'AAAA;AACA;AACA',
     });
+    // Lines that are left out of what is published lie between two: 2 is E, 17 takes a second digit.
+    expect(
+      compiled('// why\n\nconst a = 1;\nconst b = 2;\n' + '\n'.repeat(16) + 'const c = 3;', true).map.mappings,
+    ).toBe('AAEA;AACA;AAiBA');
   });
 });
 
