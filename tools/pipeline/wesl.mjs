@@ -2,7 +2,7 @@
 //
 // `import package::a::b::name;` becomes a dependency, `@if(FLAG) … @elif(FLAG) … @else …` on declarations, members,
 // parameters, statements and imports becomes gates. Nothing else changes, and every line keeps its number: line n of a
-// module's text is line n of its file; what is published has no comments and no empty lines. No parser of WESL is in what we publish.
+// module's text is line n of its file; what is published has no comments and fewer lines. No parser of WESL is in what we publish.
 //
 // A file of constants is TypeScript's too: see wesl-constants.mjs.
 import { existsSync, readFileSync } from 'node:fs';
@@ -370,7 +370,7 @@ function base64Vlq(value) {
  *
  * @param {string} text
  * @param {string} file Absolute path.
- * @param {{ shrink?: boolean }} options `shrink`: leaves out comments, spaces and empty lines, and shortens names in
+ * @param {{ shrink?: boolean }} options `shrink`: leaves out comments and spaces, joins lines of a block, and shortens names in
  *   functions, for what is published.
  * @returns {{ code: string, map: { version: 3, sources: string[], sourcesContent: string[], names: string[], mappings:
  * string } }}
@@ -414,7 +414,13 @@ export function compileWesl(text, file, { shrink = false } = {}) {
     .replace(/\.wesl$/, '')
     .replaceAll('_', '-')}`;
   // Lines of the result, with their numbers in the file, from 0.
-  const lines = [...gatedText(text, parsed, shrink).split('\n').entries()].filter(([, line]) => !shrink || line !== '');
+  const lines = [];
+  for (const [number, line] of gatedText(text, parsed, shrink).split('\n').entries()) {
+    // A bracket that closes alone belongs to the line before it, and the first line of a block to what opens it.
+    const joined = shrink && (!/[^)\]};]/.test(line) || lines.at(-1)?.[1].endsWith('{'));
+    if (joined && lines.length > 0) lines.at(-1)[1] += line;
+    else if (!joined) lines.push([number, line]);
+  }
   const template = lines
     .map(([, line]) => line)
     .join('\n')

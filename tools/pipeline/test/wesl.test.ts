@@ -166,12 +166,10 @@ describe('the text', () => {
     expect(new Function(`return ${/`[\s\S]*`/.exec(code)![0]}`)()).toBe('// `a` \\ ${b}\nconst x = 1;');
   });
 
-  it('is published without comments, spaces and empty lines', () => {
+  it('is published without comments and spaces, with fewer lines', () => {
     const text =
       'const a = 1; // why\n/* and\n so */ const b = a - -a;\nfn f() {\n  @if(A && B) x = a; @else x = - b;\n}';
-    expect(compiled(text, true).text).toBe(
-      'const a=1;\nconst b=a- -a;\nfn f(){\n//#if A&&B x=a;//#else x= -b;//#endif\n}',
-    );
+    expect(compiled(text, true).text).toBe('const a=1;\nconst b=a- -a;\nfn f(){//#if A&&B x=a;//#else x= -b;//#endif}');
   });
 
   it('means the same published, in every combination of flags', () => {
