@@ -176,7 +176,7 @@ test('the first script is small, and controls come after the first model', async
     );
     return [...scripts].reduce((sum, path) => sum + gzipSync(readFileSync(dist + path.slice(1))).length, 0);
   };
-  expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(177_000);
+  expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(176_000);
   expect(fetched(asked)).toBeLessThan(200_000);
   // Presets, encoders and decoders wait until somebody wants them.
   expect(
