@@ -356,6 +356,13 @@ function resolveModule({ path, name, line }, file, source) {
   );
 }
 
+/** The value of a number that a TypeScript file exports as a literal, or as one that is shifted; `undefined` of others. */
+function readLiteral(target, name) {
+  const found = new RegExp(`export const ${name} = (\\w+)(?: << (\\d+))?;`).exec(readFileSync(target, 'utf8'));
+  const value = found ? Number(found[1]) * 2 ** Number(found[2] ?? 0) : NaN;
+  return Number.isInteger(value) ? value : undefined;
+}
+
 /** A number ≥ 0 as source maps have it: five bits a digit, the lowest first, after a bit for the sign. */
 function base64Vlq(value) {
   let digits = '';
@@ -383,6 +390,7 @@ export function compileWesl(text, file, { shrink = false } = {}) {
   const names = new Map();
   const dependencies = new Map();
   const numbers = new Map();
+  let computed = false;
   const used = new Set(['wgslModule']);
   let imports = '';
   for (const entry of parsed.imports) {
@@ -393,8 +401,12 @@ export function compileWesl(text, file, { shrink = false } = {}) {
       .replace(/\.ts$/, '');
     if (!wesl && isNumber(entry.name)) {
       if (numbers.has(entry.name)) continue;
-      numbers.set(entry.name, `number${numbers.size}`);
-      imports += `import { ${entry.name} as ${numbers.get(entry.name)} } from ${JSON.stringify(specifier)};`;
+      const literal = shrink ? readLiteral(target, entry.name) : undefined;
+      const variable = `number${numbers.size}`;
+      numbers.set(entry.name, literal ?? `\${${variable}}`);
+      if (literal !== undefined) continue;
+      computed = true;
+      imports += `import { ${entry.name} as ${variable} } from ${JSON.stringify(specifier)};`;
       continue;
     }
     const key = wesl ? specifier : `${specifier} ${entry.name}`;
@@ -425,9 +437,10 @@ export function compileWesl(text, file, { shrink = false } = {}) {
     .map(([, line]) => line)
     .join('\n')
     .replace(/[\\`]|\$(?=\{)/g, '\\$&')
-    .replace(/[A-Za-z_]\w*/g, (name) => (numbers.has(name) ? `\${${numbers.get(name)}}u` : name));
+    .replace(/[A-Za-z_]\w*/g, (name) => (numbers.has(name) ? `${numbers.get(name)}u` : name));
+  // Bundlers keep a template that holds a variable, even as an argument of a pure call: the function takes it along.
   // All on the first line, so that lines of the result are those of the template.
-  const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ wgslModule(${JSON.stringify(title)}, \`${template}\`${dependencies.size > 0 ? `, [${[...dependencies.values()].join(', ')}]` : ''});\n`;
+  const code = `import { ${[...used].sort().join(', ')} } from "@glanz/wgsl/module";${imports}export default /* @__PURE__ */ ${computed ? '(() => ' : ''}wgslModule(${JSON.stringify(title)}, \`${template}\`${dependencies.size > 0 ? `, [${[...dependencies.values()].join(', ')}]` : ''})${computed ? ')()' : ''};\n`;
   const constants = readConstants(text, file);
   const mappings = lines.map(([number], i) => `AA${base64Vlq(number - (lines[i - 1]?.[0] ?? 0))}A`).join(';');
   return {

@@ -150,7 +150,13 @@ describe('imports', () => {
     const { head, tail, text: template } = compiled(text, true);
     expect(head).toContain('import { LIGHT_SPOT as number0 } from "../light-record";import { Light as module0 }');
     expect(template).toBe('const a=${number0}u+MY_LIGHT_SPOT;');
-    expect(tail).toBe(', [module0]);\n');
+    // A bundler would keep a template with a variable, but for the function.
+    expect(head).toMatch(/export default \/\* @__PURE__ \*\/ \(\(\) => wgslModule\("[^"]*", $/);
+    expect(tail).toBe(', [module0]))();\n');
+    writeFileSync(join(folder, 'src/light-record.ts'), 'export const LIGHT_SPOT = 1 << 4;\n');
+    const literal = compiled(text, true);
+    expect([literal.text, literal.tail]).toEqual(['const a=16u+MY_LIGHT_SPOT;', ', [module0]);\n']);
+    expect(literal.head).not.toContain('number0');
   });
 
   it('are listed with their lines', () => {
