@@ -116,7 +116,10 @@ export class PathTracer extends TracerEdits {
     return this.#editor.scene;
   }
 
-  /** Pixels of the image, and of what {@link read} returns: those that it was given, times {@link renderScale}. */
+  /**
+   * Pixels of the image, and of what {@link read} returns: those that it was given times {@link renderScale}, rounded,
+   * at least 1.
+   */
   get width(): number {
     return this.#session.film.width;
   }
@@ -340,8 +343,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Changes the film's size and restarts it, at a render scale of 1. The old film stays, with its samples, until the GPU has memory for the new
-   * one. Of several calls that overlap the last one counts.
+   * Changes the film's size and restarts it, at a render scale of 1. The old film stays, with its samples, until the
+   * GPU has memory for the new one. Of several calls that overlap the last one counts.
    *
    * @returns When the film has its new size.
    * @throws {RenderError} `renderer/size`
@@ -351,10 +354,10 @@ export class PathTracer extends TracerEdits {
     this.#check();
     checkSize(width, height);
     await this.#edits.resize(width, height);
-    if (this.renderScale !== 1) this.setRenderScale(1);
+    if (this.renderScale !== 1 && !this.#destroyed) this.setRenderScale(1);
   }
 
-  /** See {@link setRenderScale}. */
+  /** Share of the width and height that is rendered, 1 by default; see {@link setRenderScale}. */
   get renderScale(): number {
     return this.#session.film.scale;
   }
@@ -364,7 +367,7 @@ export class PathTracer extends TracerEdits {
    * allocated, unlike with {@link resize}.
    *
    * @param scale Share of the width and height that the tracer was given, above 0 and at most 1.
-   * @throws {RenderError} `renderer/size`
+   * @throws {RenderError} `renderer/size` for a scale out of range, `renderer/destroyed`
    */
   setRenderScale(scale: number): void {
     this.#check();

@@ -99,6 +99,14 @@ describe('setRenderScale', () => {
     tracer.destroy();
   });
 
+  it('lets a resize that destroy() overtakes end quietly', async () => {
+    const tracer = await PathTracer.create(device, scene(), options);
+    tracer.setRenderScale(0.5);
+    const resized = tracer.resize(30, 20);
+    tracer.destroy();
+    await expect(resized).resolves.toBeUndefined();
+  });
+
   it.each([0, -1, 1.01, Number.NaN, Infinity, '0.5' as unknown as number])('refuses %s', async (scale) => {
     const tracer = await PathTracer.create(device, scene(), options);
     expect(() => tracer.setRenderScale(scale)).toThrow(expect.objectContaining({ code: 'renderer/size' }));
