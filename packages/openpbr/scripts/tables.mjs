@@ -2,7 +2,7 @@
  * Computes the energy tables of @glanz/openpbr and writes src/tables/grid.wesl and encoded.ts: `node scripts/tables.mjs`,
  * about a minute. Deterministic. With `--check` it writes nothing and fails if the file would change.
  *
- * Coordinates, shared with src/cpu/energy.ts and src/wgsl/energy.wgsl.ts. Tried and measured against the quadrature at
+ * Coordinates, shared with src/cpu/energy.ts and src/wgsl/energy.wesl. Tried and measured against the quadrature at
  * points off the grid (largest error over indices 1.15 to 1.8, roughness 0.01 to 1, cosines 0.001 to 1):
  * - roughness × √cosine, 32 × 32: 1.7 % for the conductor. The dip of masking sits at cosine ≈ α and moves across the
  *   grid. With t = √cosine·(1 + r)/(√cosine + r) it stays in place: 0.15 %.

@@ -120,7 +120,7 @@ export interface PathTracerOptions {
   readonly signal?: AbortSignal;
   readonly onProgress?: (progress: PrepareProgress) => void;
   /**
-   * Called once while the kernels compile, with a plain image of the scene: base colours under a lamp at the camera,
+   * Called once while the kernels compile, with a plain image of the scene: base colours under a light at the camera,
    * without textures. Its small kernel is there long before the others; where those are there first, it is not called.
    */
   readonly onFirstLight?: (image: FirstLight) => void;

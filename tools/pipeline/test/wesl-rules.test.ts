@@ -3,7 +3,6 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { expect, it } from 'vitest';
-// @ts-expect-error It has no types: only this test and `npm test` call it.
 import { checkWesl } from '../../check-wesl.mjs';
 import { brokenRules, gateLines } from '../wesl-rules.mjs';
 

@@ -22,7 +22,7 @@ export function readFilmState(state: FilmState, layer: 'beauty' | 'variance'): F
 
 const LUMINANCE = [0.2126, 0.7152, 0.0722] as const;
 
-/** The twin of `film_compose` in `film.wgsl.ts`. */
+/** The twin of `film_compose` in `film.wesl`. */
 function composeBeauty({ width, height, planes, weights: { last }, sums }: FilmState): Float32Array<ArrayBuffer> {
   const groups = last.length;
   const stride = 4 * width * height;

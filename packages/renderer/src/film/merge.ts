@@ -135,7 +135,7 @@ function addTo(sum: Float64Array, array: Float32Array): void {
   for (let i = 0; i < sum.length; i++) sum[i] = (sum[i] as number) + (array[i] as number);
 }
 
-/** Adds the square of a whole chunk's mean, as `resolve.wgsl.ts` does. */
+/** Adds the square of a whole chunk's mean, as `resolve.wesl` does. */
 function addMoment(moment: Float64Array, sums: Float64Array, { planes, weights: { first } }: FilmState): void {
   const groups = first.length;
   // With catchers, the planes of the image without the objects do not count.
