@@ -51,6 +51,7 @@ export default defineConfig({
         'formats',
         'cad',
         'tonemap',
+        'denoise',
         'image',
         'renderer',
         'cli',

@@ -23,6 +23,7 @@ const packages = [
   'openpbr',
   'bvh',
   'tonemap',
+  'denoise',
   'image',
   'wgsl',
   'cli',

@@ -1,0 +1,5 @@
+import { glanzPackage } from '../../tsup.base';
+
+export default glanzPackage({
+  index: 'src/index.ts',
+});
