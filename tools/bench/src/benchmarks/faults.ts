@@ -1,4 +1,4 @@
-import { mkdtempSync, rmSync } from 'node:fs';
+import { appendFileSync, existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -14,7 +14,7 @@ import { survived, type Outcome, type Subject } from '../faults/outcome';
 import { tracerCampaign } from '../faults/tracer';
 import { viewerCampaign } from '../faults/viewer';
 
-/** Set for the process that a campaign on tracers is run in. */
+/** Set for a process that makes trials on tracers: its part of them, from 0, and the number of parts, `0/4`. */
 const CHILD = 'GLANZ_FAULTS_CHILD';
 
 const SUBJECTS: readonly Subject[] = ['tracer', 'viewer', 'cli'];
@@ -53,6 +53,7 @@ export const benchmark: Benchmark = {
     only: { type: 'string', help: 'part of the names of points, e.g. "in resize"' },
     every: { type: 'string', help: 'takes each k-th trial' },
     journal: { type: 'string', help: 'file that notes each trial, for a run that resumes another' },
+    processes: { type: 'string', help: 'processes that share the trials of the tracer; default 1' },
   },
   async run({ log, quick, gpu: name, values }) {
     const subjects = list(values['subject'], SUBJECTS, 'subject');
@@ -60,6 +61,12 @@ export const benchmark: Benchmark = {
     const every = values['every'] === undefined ? (quick ? 40 : 1) : Number(values['every']);
     if (!Number.isInteger(every) || every < 1)
       throw new BenchError('bench/option', `--every ${values['every']}: it must be a whole number of at least 1.`);
+    const processes = Number(values['processes'] ?? 1);
+    if (!Number.isInteger(processes) || processes < 1)
+      throw new BenchError(
+        'bench/option',
+        `--processes ${values['processes']}: it must be a whole number of at least 1.`,
+      );
     const onOutcome = (outcome: Outcome, done: number, of: number) => {
       if (!survived(outcome) || done % 50 === 0)
         log(
@@ -67,14 +74,21 @@ export const benchmark: Benchmark = {
         );
     };
     const { gpu, adapterName, software } = await createGpu(name === undefined ? { software: 'only' } : { gpu: name });
-    const isChild = process.env[CHILD] !== undefined;
+    // Which part of the trials this process makes, and the number of parts.
+    const [part, parts] = process.env[CHILD]?.split('/').map(Number) ?? [];
+    const isChild = part !== undefined && parts !== undefined;
     const folder = values['journal'] === undefined ? mkdtempSync(join(tmpdir(), 'glanz-faults-')) : undefined;
     const file = resolve(folder ?? '', values['journal'] ?? 'journal.jsonl');
     try {
       const only = values['only'] ?? '';
       const campaign = { faults, every, only, onOutcome };
       if (subjects.includes('tracer') && isChild)
-        await tracerCampaign({ ...campaign, journal: new Journal(file), open: () => requestDevice({ gpu }) });
+        await tracerCampaign({
+          ...campaign,
+          shard: [part, parts],
+          journal: new Journal(file),
+          open: () => requestDevice({ gpu }),
+        });
       else if (subjects.includes('tracer')) {
         const options = {
           subject: 'tracer',
@@ -82,15 +96,18 @@ export const benchmark: Benchmark = {
           only: values['only'],
           every: String(every),
           gpu: name,
-          journal: file,
         };
         const args = Object.entries(options).flatMap(([option, value]) =>
           value === undefined ? [] : [`--${option}`, value],
         );
-        await untilDone([process.execPath, fileURLToPath(import.meta.url), ...args], file, {
-          ...process.env,
-          [CHILD]: '1',
-        });
+        const command = [process.execPath, fileURLToPath(import.meta.url), ...args] as const;
+        const notes = Array.from({ length: processes }, (_, i) => (processes === 1 ? file : `${file}.${i}`));
+        await Promise.all(
+          notes.map((own, i) =>
+            untilDone([...command, '--journal', own], own, { ...process.env, [CHILD]: `${i}/${processes}` }),
+          ),
+        );
+        if (processes > 1) for (const own of notes) appendFileSync(file, existsSync(own) ? readFileSync(own) : '');
       }
       const journal = new Journal(file);
       if (subjects.includes('viewer'))

@@ -17,6 +17,8 @@ export interface TracerCampaign {
   readonly steps?: readonly string[];
   /** Takes each k-th trial; default 1. */
   readonly every?: number;
+  /** The part of these trials to make, from 0, and the number of parts; default all. */
+  readonly shard?: readonly [part: number, of: number];
   /** Bound on each call in milliseconds; default 60,000. */
   readonly boundMs?: number;
   /** Where trials are noted; those that it has already are not made again. */
@@ -52,6 +54,7 @@ export async function tracerCampaign({
   only = '',
   steps,
   every = 1,
+  shard: [part, parts] = [0, 1],
   boundMs = 60_000,
   journal,
   onOutcome,
@@ -93,7 +96,7 @@ export async function tracerCampaign({
           if ((!faults || faults.includes(fault)) && point.name.includes(only)) trials.push({ of, point, fault });
       }
     }
-    const chosen = trials.filter((_, i) => i % every === 0);
+    const chosen = trials.filter((_, i) => i % every === 0).filter((_, i) => i % parts === part);
     for (const [i, { of, point, fault }] of chosen.entries()) {
       const name = { subject: 'tracer', point: point.name, fault } as const;
       if (journal.has(name)) continue;
