@@ -59,6 +59,7 @@ export default defineConfig({
         'element',
         'react',
         'three',
+        'denoise-weights',
       ].map((name) => project(name, `packages/${name}`)),
       project('docs', 'apps/docs'),
       ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline'].map((name) =>

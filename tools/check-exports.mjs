@@ -38,7 +38,7 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
   const published = manifest.publishConfig?.exports ?? {};
 
   if (name !== `@glanz/${short}`) say(`is called ${name}, not @glanz/${short}.`);
-  for (const [key, value] of Object.entries({ type: 'module', license: 'MIT' }))
+  for (const [key, value] of Object.entries({ type: 'module', license: manifest.glanz?.license ?? 'MIT' }))
     if (manifest[key] !== value) say(`"${key}" must be ${JSON.stringify(value)}.`);
   // Entries that do something when they are imported are named, file by file; nothing else may.
   const effects = manifest.sideEffects;

@@ -63,6 +63,8 @@ function isBuilt(p, print) {
   const files = [
     ...entriesOf(p).flatMap(({ conditions }) => [conditions.types, conditions.default]),
     ...Object.values(p.manifest.bin ?? {}),
+    // Folders beside dist that the build fills.
+    ...(p.manifest.files ?? []),
   ];
   return files.every((file) => typeof file !== 'string' || existsSync(join(p.dir, file)));
 }

@@ -19,14 +19,14 @@ export function readArrows(markdown) {
   const arrows = new Map();
   for (const line of markdown.split('\n')) {
     const cells = line.split('|').map((cell) => cell.trim());
-    const name = /^`([a-z]+)`$/.exec(cells[1] ?? '')?.[1];
+    const name = /^`([a-z-]+)`$/.exec(cells[1] ?? '')?.[1];
     if (!name || cells.length < 5) continue;
     const may = cells[3];
     const row = new Map();
     if (/^every package above$/.test(may))
       for (const above of arrows.keys()) row.set(above, { typesOnly: false, errorOnly: false });
     else if (may !== 'nothing') {
-      for (const [, target, note = ''] of may.matchAll(/`([a-z]+)`(?: \(([^)]*)\))?/g))
+      for (const [, target, note = ''] of may.matchAll(/`([a-z-]+)`(?: \(([^)]*)\))?/g))
         row.set(target, { typesOnly: note.includes('types only'), errorOnly: note.includes('GlanzError') });
     }
     arrows.set(name, row);

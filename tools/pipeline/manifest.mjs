@@ -1,7 +1,7 @@
 // What the manifests of all published packages have in common, from one place: the package.json of the root.
 //
 // Root field           in a package
-// author, license      the same
+// author, license      the same; a package with files under another licence says so as glanz.license
 // keywords             at the end of the package's own
 // repository.url       repository (with the package's folder), homepage, bugs; none of them while the address is empty
 import { join } from 'node:path';
@@ -32,13 +32,13 @@ export function errorsPage(rootManifest) {
 }
 
 /** The fields that a package takes from the root, `undefined` for one that it must not have. */
-export function commonFields(rootManifest, folder, ownKeywords) {
+export function commonFields(rootManifest, folder, ownKeywords, license) {
   const web = webAddress(rootManifest);
   const common = rootManifest.keywords ?? [];
   return {
     keywords: [...ownKeywords.filter((word) => !common.includes(word)), ...common],
     author: rootManifest.author,
-    license: rootManifest.license,
+    license: license ?? rootManifest.license,
     homepage: web && (rootManifest.homepage || `${web}/tree/HEAD/${folder}#readme`),
     bugs: web && { url: `${web}/issues` },
     repository: web && { type: 'git', url: `git+${web}.git`, directory: folder },
@@ -67,7 +67,10 @@ const FIRST = [
 
 /** A package's manifest as it should be: its own fields, and those of the root. */
 export function completeManifest(manifest, rootManifest, folder) {
-  const fields = { ...manifest, ...commonFields(rootManifest, folder, manifest.keywords ?? []) };
+  const fields = {
+    ...manifest,
+    ...commonFields(rootManifest, folder, manifest.keywords ?? [], manifest.glanz?.license),
+  };
   fields.scripts = { ...manifest.scripts, ...HOOKS };
   // Provenance: the registry shows from which commit and by which workflow a version was built.
   fields.publishConfig = { access: 'public', provenance: true, ...manifest.publishConfig };

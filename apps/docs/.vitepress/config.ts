@@ -25,6 +25,7 @@ const packages = [
   'tonemap',
   'denoise',
   'image',
+  'denoise-weights',
   'wgsl',
   'cli',
 ];

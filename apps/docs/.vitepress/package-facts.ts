@@ -14,7 +14,7 @@ export function packageFacts(name: string): { readonly version: string; readonly
 export function packageLine(md: MarkdownRenderer): void {
   md.core.ruler.push('package-line', (state) => {
     const page = (state.env as { relativePath?: string }).relativePath ?? '';
-    const name = /^packages\/([a-z]+)\.md$/.exec(page)?.[1];
+    const name = /^packages\/([a-z-]+)\.md$/.exec(page)?.[1];
     const heading = state.tokens.findIndex(({ type, tag }) => type === 'heading_close' && tag === 'h1');
     if (name === undefined || name === 'index' || heading < 0) return;
     const { version, stability } = packageFacts(name);

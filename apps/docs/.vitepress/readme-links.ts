@@ -13,7 +13,7 @@ export function siteLink(href: string): string {
   const path = href.replace(/^(\.{1,2}\/)+/, '');
   const known = FILES[path];
   if (known !== undefined) return known;
-  const name = /^(?:packages\/)?([a-z]+)(?:\/|\/README\.md)?(#.*)?$/.exec(path);
+  const name = /^(?:packages\/)?([a-z-]+)(?:\/|\/README\.md)?(#.*)?$/.exec(path);
   return href !== path || path.startsWith('packages/') ? (name ? `/packages/${name[1]}${name[2] ?? ''}` : href) : href;
 }
 

@@ -34,6 +34,14 @@ describe('fields that all manifests share', () => {
     });
   });
 
+  it('keep the licence of a package that holds files of others', () => {
+    const license = 'MIT AND Apache-2.0';
+    expect(completeManifest({ name: '@glanz/bvh', license, glanz: { license } }, root, 'packages/bvh').license).toBe(
+      license,
+    );
+    expect(completeManifest({ name: '@glanz/bvh', license }, root, 'packages/bvh').license).toBe('MIT');
+  });
+
   it('name no address while the root has none, and completing twice changes nothing', () => {
     const unset = { ...root, repository: { type: 'git', url: '' } };
     expect(webAddress(unset)).toBeUndefined();

@@ -1,0 +1,1 @@
+export { WEIGHT_ARCHIVES, type WeightArchive, type WeightArchiveName } from './archives';
