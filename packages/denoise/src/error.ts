@@ -5,6 +5,6 @@ import { GlanzError } from '@glanz/wgsl/error';
  * `denoise/option` (an option out of range), `denoise/input` (an image is missing, too small or used twice),
  * `denoise/size` (an image size that cannot be), `denoise/limit` (the device's limits are too low), `denoise/memory`
  * (the GPU has no memory left), `denoise/pipeline` (the driver does not compile a shader), `denoise/device` (the device
- * was lost or rejected a command), `denoise/busy` (one image at a time), `denoise/destroyed`.
+ * was lost), `denoise/destroyed`.
  */
 export class DenoiseError extends GlanzError {}

@@ -1,10 +1,14 @@
+export { Denoiser } from './denoiser';
 export { DenoiseError } from './error';
 export { parseTza, type TzaTensor } from './tza';
 export type {
   DenoiseImages,
   DenoiseOptions,
+  DenoiseResult,
   DenoiserInput,
   DenoiserOptions,
   DenoiserStorage,
   ImageBuffer,
+  LayerSize,
 } from './options';
+export type { KernelShape } from './kernels/shapes';

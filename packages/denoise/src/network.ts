@@ -15,10 +15,10 @@ export interface Layer {
   /** The layer whose output is doubled in size (each pixel repeated) and comes first among the input channels. */
   readonly up: LayerSource | undefined;
   /** The layer whose output is read as it is. */
-  readonly direct: LayerSource | undefined;
+  readonly direct: LayerSource;
   /** Channels that come from `up`, 0 without one. */
   readonly upChannels: number;
-  /** Channels that come from `direct`, 0 without one. */
+  /** Channels that come from `direct`. */
   readonly directChannels: number;
   /** Channels of the output. */
   readonly channels: number;

@@ -1,3 +1,5 @@
+import type { KernelShape } from './kernels/shapes';
+
 /**
  * What the image that a network cleans holds.
  *
@@ -30,6 +32,30 @@ export interface DenoiserOptions {
   readonly maxSubmitMs?: number;
   /** Ends the creation with the signal's reason. */
   readonly signal?: AbortSignal;
+  /**
+   * For measurements: how a layer is cut into workgroups; `undefined` for the usual choice. Results differ by the order
+   * of nothing: each sum is computed in the same order.
+   */
+  readonly shapeOf?: (layer: LayerSize, width: number, height: number) => KernelShape | undefined;
+}
+
+/** What a kernel's shape is chosen by. */
+export interface LayerSize {
+  /** Name in the archive, e.g. `dec_conv1a`. */
+  readonly name: string;
+  /** Channels that it computes. */
+  readonly channels: number;
+  /** Channels of the upsampled source, 0 without one. */
+  readonly upChannels: number;
+  /** Channels of the source that is read as it is. */
+  readonly directChannels: number;
+}
+
+/** What {@link Denoiser.denoise} did. */
+export interface DenoiseResult {
+  /** Tiles that the image was cut into: 1 where there is memory for the whole. */
+  readonly tiles: number;
+  readonly submissions: number;
 }
 
 /**

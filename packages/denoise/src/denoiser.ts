@@ -1,0 +1,239 @@
+import { DenoiseError } from './error';
+import { bindImages, checkSize, type BoundImages } from './images';
+import { JobCursor, costOf } from './jobs';
+import { chooseShape } from './kernels/choose-shape';
+import type { KernelShape } from './kernels/shapes';
+import { readNetwork, type Layer, type Network } from './network';
+import { NetworkKernels } from './network-kernels';
+import type {
+  DenoiseImages,
+  DenoiseOptions,
+  DenoiseResult,
+  DenoiserInput,
+  DenoiserOptions,
+  DenoiserStorage,
+} from './options';
+import { Pace } from './pace';
+import { Prepared } from './prepared';
+
+const INPUTS: readonly DenoiserInput[] = ['hdr', 'ldr', 'srgb', 'albedo', 'normal'];
+
+/** Adapters that compute on the CPU. */
+const isSoftware = ({ adapterInfo }: GPUDevice): boolean =>
+  adapterInfo?.isFallbackAdapter === true ||
+  /swiftshader|llvmpipe|lavapipe|basic render|warp/i.test(
+    `${adapterInfo?.architecture} ${adapterInfo?.device} ${adapterInfo?.description}`,
+  );
+
+function checkOptions({ input = 'hdr', storage = 'f16', maxMemory = 1, maxSubmitMs = 1 }: DenoiserOptions): void {
+  if (!INPUTS.includes(input))
+    throw new DenoiseError('denoise/option', `input "${String(input)}" is unknown: use ${INPUTS.join(', ')}.`);
+  if (storage !== 'f16' && storage !== 'f32')
+    throw new DenoiseError('denoise/option', `storage "${String(storage)}" is unknown: use f16 or f32.`);
+  for (const [name, value] of Object.entries({ maxMemory, maxSubmitMs }))
+    if (!(value > 0)) throw new DenoiseError('denoise/option', `${name} ${value} is not a positive number.`);
+}
+
+/**
+ * Denoises images in GPU buffers by a network of Open Image Denoise. One network; images of any size, one at a time, later
+ * calls wait. Memory and shaders for a size are made at its first use and kept until another size comes.
+ *
+ * @example
+ * const denoiser = await Denoiser.create(device, weights, { input: 'hdr' });
+ * await denoiser.denoise({ color, albedo, normal, output, width, height });
+ */
+export class Denoiser {
+  readonly #device: GPUDevice;
+  readonly #network: Network;
+  readonly #kernels: NetworkKernels;
+  readonly #maxMemory: number;
+  readonly #shapeOf: (layer: Layer, width: number, height: number) => KernelShape;
+  readonly #pace: Pace;
+  /** Rejects when the device is lost. */
+  readonly #lost: Promise<never>;
+  /** What is denoised. */
+  readonly input: DenoiserInput;
+  /** Precision between layers. */
+  readonly storage: DenoiserStorage;
+  #prepared: Prepared | undefined;
+  #last: Promise<unknown> = Promise.resolve();
+  #destroyed = false;
+
+  private constructor(device: GPUDevice, network: Network, options: DenoiserOptions) {
+    this.#device = device;
+    this.#network = network;
+    this.input = options.input ?? 'hdr';
+    this.storage = options.storage ?? 'f16';
+    this.#maxMemory = options.maxMemory ?? 2 ** 30;
+    this.#pace = new Pace(options.maxSubmitMs ?? 8);
+    this.#kernels = new NetworkKernels(device, network, this.input, this.storage);
+    const software = isSoftware(device);
+    this.#shapeOf = (layer, width, height) =>
+      options.shapeOf?.(layer, width, height) ?? chooseShape(layer, width, height, software);
+    this.#lost = device.lost.then(({ message }) => {
+      throw new DenoiseError(
+        'denoise/device',
+        `The GPU device was lost: ${message || 'no reason is known'}. Create another device, and a Denoiser on it.`,
+      );
+    });
+    this.#lost.catch(() => undefined);
+  }
+
+  /**
+   * Reads a network and compiles what does not depend on the size of images.
+   *
+   * @param weights The whole content of a .tza file of Open Image Denoise. Nothing is downloaded.
+   * @throws {DenoiseError} `denoise/weights`, `denoise/option`, `denoise/pipeline`.
+   */
+  static async create(
+    device: GPUDevice,
+    weights: Uint8Array | ArrayBuffer,
+    options: DenoiserOptions = {},
+  ): Promise<Denoiser> {
+    options.signal?.throwIfAborted();
+    checkOptions(options);
+    const network = readNetwork(weights);
+    const guide = options.input === 'albedo' || options.input === 'normal';
+    if (guide && network.channels !== 3)
+      throw new DenoiseError(
+        'denoise/weights',
+        `A network that denoises ${options.input} takes 3 channels; this one takes ${network.channels}. Use rt_alb or rt_nrm.`,
+      );
+    const denoiser = new Denoiser(device, network, options);
+    await denoiser.#kernels.prelude();
+    options.signal?.throwIfAborted();
+    return denoiser;
+  }
+
+  /** Channels that the network takes: 3 (the image), 6 (and albedo) or 9 (and normal). */
+  get channels(): 3 | 6 | 9 {
+    return this.#network.channels;
+  }
+
+  /** Bytes on the GPU: weights, and what the last size needs. */
+  get memoryBytes(): number {
+    return this.#kernels.bytes + (this.#prepared?.bytes ?? 0);
+  }
+
+  /**
+   * Makes memory and shaders for images of a size, so that the first one does not wait for them.
+   *
+   * @throws {DenoiseError} `denoise/size`, `denoise/memory`, `denoise/limit`, `denoise/pipeline`, `denoise/destroyed`.
+   */
+  prepare(width: number, height: number): Promise<void> {
+    return this.#inTurn(async () => {
+      checkSize(width, height);
+      await this.#prepare(width, height);
+    });
+  }
+
+  /**
+   * Denoises an image, in submissions of about `maxSubmitMs` each. Resolves when the GPU is done.
+   *
+   * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/option`, `denoise/memory`, `denoise/limit`,
+   * `denoise/pipeline`, `denoise/device`, `denoise/destroyed`; the signal's reason where it aborts.
+   */
+  denoise(images: DenoiseImages, options: DenoiseOptions = {}): Promise<DenoiseResult> {
+    return this.#inTurn(async () => {
+      options.signal?.throwIfAborted();
+      const bound = bindImages(this.#network, this.input, images, this.#device.limits);
+      return this.#run(await this.#prepare(images.width, images.height), bound, options);
+    });
+  }
+
+  /**
+   * Records the whole work into an encoder of yours, for an application that runs a frame loop of its own. Uniforms are
+   * written on the queue, ahead of the encoder: submit it before the next call of any method.
+   *
+   * @throws {DenoiseError} as {@link denoise} does; `denoise/size` too where {@link prepare} was not called for this size
+   * before.
+   */
+  encode(encoder: GPUCommandEncoder, images: DenoiseImages): void {
+    this.#expectAlive();
+    const bound = bindImages(this.#network, this.input, images, this.#device.limits);
+    const prepared = this.#prepared;
+    if (prepared?.width !== images.width || prepared.height !== images.height)
+      throw new DenoiseError(
+        'denoise/size',
+        `Nothing is prepared for ${images.width} × ${images.height} pixels: await prepare() with this size before encode().`,
+      );
+    const pass = encoder.beginComputePass({ label: 'denoise' });
+    new JobCursor(prepared.jobs(bound)).encode(pass, Infinity);
+    pass.end();
+  }
+
+  /** Frees everything on the GPU; work that is under way ends with `denoise/destroyed`. */
+  destroy(): void {
+    this.#destroyed = true;
+    this.#prepared?.destroy();
+    this.#prepared = undefined;
+    this.#kernels.destroy();
+  }
+
+  #expectAlive(): void {
+    if (this.#destroyed)
+      throw new DenoiseError('denoise/destroyed', 'This Denoiser was destroyed: create another one.');
+  }
+
+  #inTurn<T>(work: () => Promise<T>): Promise<T> {
+    const result = this.#last.then(async () => {
+      this.#expectAlive();
+      return work();
+    });
+    this.#last = result.catch(() => undefined);
+    return result;
+  }
+
+  async #prepare(width: number, height: number): Promise<Prepared> {
+    if (this.#prepared?.width === width && this.#prepared.height === height) return this.#prepared;
+    this.#prepared?.destroy();
+    this.#prepared = undefined;
+    const prepared = await Prepared.create(this.#device, this.#network, this.#kernels, {
+      width,
+      height,
+      maxMemory: this.#maxMemory,
+      texelBytes: this.storage === 'f16' ? 8 : 16,
+      maxBinding: this.#device.limits.maxStorageBufferBindingSize,
+      shapeOf: this.#shapeOf,
+    });
+    if (this.#destroyed) prepared.destroy();
+    this.#expectAlive();
+    this.#prepared = prepared;
+    return prepared;
+  }
+
+  async #run(prepared: Prepared, images: BoundImages, { signal, onProgress }: DenoiseOptions): Promise<DenoiseResult> {
+    const jobs = prepared.jobs(images);
+    const total = costOf(jobs);
+    const cursor = new JobCursor(jobs);
+    let submissions = 0;
+    let spent = 0;
+    let ended = performance.now();
+    let before: Promise<void> | undefined;
+    while (!cursor.done) {
+      signal?.throwIfAborted();
+      this.#expectAlive();
+      const encoder = this.#device.createCommandEncoder({ label: 'denoise' });
+      const pass = encoder.beginComputePass({ label: 'denoise' });
+      const work = cursor.encode(pass, this.#pace.work);
+      pass.end();
+      this.#device.queue.submit([encoder.finish()]);
+      submissions++;
+      const started = performance.now();
+      const done = Promise.race([this.#device.queue.onSubmittedWorkDone(), this.#lost]).then(() => {
+        const now = performance.now();
+        this.#pace.measured(work, now - Math.max(started, ended));
+        ended = now;
+        spent += work;
+        onProgress?.(Math.min(1, spent / total));
+      });
+      done.catch(() => undefined);
+      // One submission waits while another one runs: the GPU is never idle.
+      await before;
+      before = done;
+    }
+    await before;
+    this.#expectAlive();
+    return { tiles: prepared.tiling.tiles.length, submissions };
+  }
+}

@@ -1,0 +1,308 @@
+import { DenoiseError } from './error';
+import {
+  ALIGNMENT,
+  COPY_DST,
+  STORAGE,
+  UNIFORM,
+  bindGroup,
+  filledBuffer,
+  tryBuffers,
+  type Kernel,
+  type Window,
+} from './gpu';
+import type { BoundImages } from './images';
+import type { Job } from './jobs';
+import { layerStruct, tileStruct } from './kernels/layouts';
+import type { NetworkKernels, Prelude } from './network-kernels';
+import type { Network } from './network';
+import {
+  ENCODE_ROWS,
+  planNetwork,
+  type LayerPlan,
+  type Plan,
+  type PlanOptions,
+  type Strip,
+  type TensorWindow,
+} from './plan';
+import { tileImage, type Tiling } from './tiles';
+
+/** What a size is prepared with. */
+export interface PrepareOptions extends PlanOptions {
+  readonly width: number;
+  readonly height: number;
+  readonly maxMemory: number;
+}
+
+/** Multiply-adds that take as long as encoding a pixel, roughly. */
+const ENCODE_COST = 200;
+
+/** A layer that is ready to be dispatched. */
+interface ReadyLayer {
+  readonly plan: LayerPlan;
+  readonly kernel: Kernel;
+  readonly strips: readonly {
+    readonly strip: Strip;
+    readonly resources: Readonly<Record<number, Window>>;
+    /** `undefined` for the last layer, whose bindings depend on the caller's images. */
+    readonly group: GPUBindGroup | undefined;
+  }[];
+}
+
+/** Values as uniforms of 256 bytes each, for dynamic offsets. */
+function rowNumbers(count: number): ArrayBuffer {
+  const data = new Uint32Array((count * ALIGNMENT) / 4);
+  for (let i = 0; i < count; i++) data[(i * ALIGNMENT) / 4] = i;
+  return data.buffer;
+}
+
+/** Tiles of the image and the plan of one, with the memory for it. */
+async function allocate(device: GPUDevice, network: Network, options: PrepareOptions) {
+  const { width, height } = options;
+  const { maxBufferSize } = device.limits;
+  const sizeOf = (plan: Plan) => plan.slots.reduce((sum, bytes) => sum + bytes, 0);
+  for (let memory = options.maxMemory; ;) {
+    let plan: Plan | undefined;
+    let least = Infinity;
+    const tiling = tileImage(width, height, network.overlap, (w, h) => {
+      const planned = planNetwork(network, w, h, options);
+      if (planned) least = Math.min(least, sizeOf(planned));
+      plan = planned && planned.slots.every((bytes) => bytes <= maxBufferSize) ? planned : undefined;
+      return plan !== undefined && sizeOf(plan) <= memory;
+    });
+    if (!tiling || !plan)
+      throw least <= memory
+        ? new DenoiseError(
+            'denoise/limit',
+            `Not even a small tile of ${width} × ${height} pixels fits into the device's limits (maxBufferSize ${maxBufferSize}, maxStorageBufferBindingSize ${options.maxBinding}). Request higher ones.`,
+          )
+        : new DenoiseError(
+            'denoise/memory',
+            `The smallest tile of ${width} × ${height} pixels needs ${least} bytes on the GPU, and ${memory} ${memory < options.maxMemory ? 'are free' : 'are allowed by maxMemory'}. Free memory, or use storage 'f16' or a smaller network.`,
+          );
+    const buffers = await tryBuffers(
+      device,
+      plan.slots.map((size, i) => ({ label: `denoise values ${i}`, size, usage: STORAGE })),
+    );
+    if (buffers) return { tiling, plan, buffers };
+    // Less than what was refused, in smaller tiles.
+    memory = Math.floor(sizeOf(plan) / 2);
+  }
+}
+
+/** Everything on the GPU that depends on the size of the image. */
+export class Prepared {
+  readonly #device: GPUDevice;
+  readonly #kernels: NetworkKernels;
+  readonly #prelude: Prelude;
+  readonly #buffers: readonly GPUBuffer[];
+  readonly #own: GPUBuffer[] = [];
+  readonly #rows: GPUBuffer;
+  readonly #tiles: GPUBuffer;
+  readonly #encodeBases: GPUBuffer;
+  readonly #blocks: GPUBuffer;
+  readonly #scale: GPUBuffer;
+  readonly #layers: ReadyLayer[] = [];
+  readonly plan: Plan;
+  readonly tiling: Tiling;
+  readonly width: number;
+  readonly height: number;
+
+  private constructor(
+    device: GPUDevice,
+    kernels: NetworkKernels,
+    prelude: Prelude,
+    size: { readonly width: number; readonly height: number },
+    { plan, tiling, buffers }: { plan: Plan; tiling: Tiling; buffers: readonly GPUBuffer[] },
+  ) {
+    this.#device = device;
+    this.#kernels = kernels;
+    this.#prelude = prelude;
+    this.plan = plan;
+    this.tiling = tiling;
+    this.#buffers = buffers;
+    this.width = size.width;
+    this.height = size.height;
+    const rows = Math.max(...plan.layers.map(({ workgroups }) => workgroups[1]), Math.ceil(plan.height / ENCODE_ROWS));
+    const own = (label: string, bytes: number, usage: number) => {
+      const buffer = device.createBuffer({ label, size: bytes, usage });
+      this.#own.push(buffer);
+      return buffer;
+    };
+    this.#rows = own('denoise rows', rows * ALIGNMENT, UNIFORM | COPY_DST);
+    device.queue.writeBuffer(this.#rows, 0, rowNumbers(rows));
+    this.#tiles = own('denoise tiles', tiling.tiles.length * ALIGNMENT, UNIFORM | COPY_DST);
+    this.#encodeBases = own('denoise encode', plan.encode.length * ALIGNMENT, UNIFORM | COPY_DST);
+    for (const [i, { result }] of plan.encode.entries())
+      device.queue.writeBuffer(this.#encodeBases, i * ALIGNMENT, Uint32Array.of(result.base, 0, 0, 0));
+    this.#blocks = own('denoise blocks', Math.ceil(size.width / 16) * Math.ceil(size.height / 16) * 8, STORAGE);
+    this.#scale = own('denoise scale', 16, STORAGE | COPY_DST);
+  }
+
+  /** @throws {DenoiseError} `denoise/memory`, `denoise/limit`, `denoise/pipeline`. */
+  static async create(
+    device: GPUDevice,
+    network: Network,
+    kernels: NetworkKernels,
+    options: PrepareOptions,
+  ): Promise<Prepared> {
+    const prelude = await kernels.prelude();
+    const memory = await allocate(device, network, options);
+    const prepared = new Prepared(device, kernels, prelude, options, memory);
+    try {
+      await Promise.all(memory.plan.layers.map((layer) => kernels.convolution(layer)));
+      for (const layer of memory.plan.layers) prepared.#layers.push(await prepared.#ready(layer));
+    } catch (error) {
+      prepared.destroy();
+      throw error;
+    }
+    return prepared;
+  }
+
+  #window({ slot, offset, size }: TensorWindow): Window {
+    return { buffer: this.#buffers[slot]!, offset, size };
+  }
+
+  async #ready(plan: LayerPlan): Promise<ReadyLayer> {
+    const kernel = await this.#kernels.convolution(plan);
+    const { buffer: weights, packed } = this.#kernels.weights(plan);
+    const stride = Math.ceil(layerStruct.size / ALIGNMENT) * ALIGNMENT;
+    const uniforms = new ArrayBuffer(stride * plan.strips.length);
+    for (const [i, { direct, up, result }] of plan.strips.entries()) {
+      const bytes = layerStruct.allocate();
+      layerStruct.write(bytes, 0, {
+        size: [plan.width, plan.height],
+        up_quads: plan.up?.quads ?? 0,
+        direct_quads: plan.direct.quads,
+        up_base: up?.base ?? 0,
+        direct_base: direct.base,
+        result_base: result?.base ?? 0,
+        result_quads: plan.result?.quads ?? 1,
+        output_quads: packed.outputQuads,
+        up_weights: packed.upAt,
+        direct_weights: packed.directAt,
+      });
+      new Uint8Array(uniforms).set(new Uint8Array(bytes), i * stride);
+    }
+    const layer = filledBuffer(this.#device, `denoise ${plan.layer.name}`, uniforms, UNIFORM);
+    this.#own.push(layer);
+    const strips = plan.strips.map((strip, i) => {
+      const resources: Record<number, Window> = {
+        0: { buffer: layer, offset: i * stride, size: layerStruct.size },
+        1: { buffer: this.#rows, offset: 0, size: 16 },
+        2: { buffer: weights, offset: 0, size: weights.size },
+        3: this.#window(strip.direct),
+        ...(strip.up ? { 4: this.#window(strip.up) } : {}),
+        ...(strip.result ? { 5: this.#window(strip.result) } : {}),
+      };
+      return { strip, resources, group: strip.result && bindGroup(this.#device, kernel, resources) };
+    });
+    return { plan, kernel, strips };
+  }
+
+  /** Bytes on the GPU. */
+  get bytes(): number {
+    return [...this.#buffers, ...this.#own].reduce((sum, { size }) => sum + size, 0);
+  }
+
+  /** Writes what of the uniforms depends on the images. */
+  #write(images: BoundImages): void {
+    const data = new Uint8Array(this.tiling.tiles.length * ALIGNMENT);
+    for (const [i, tile] of this.tiling.tiles.entries()) {
+      const bytes = tileStruct.allocate();
+      tileStruct.write(bytes, 0, {
+        image_size: [images.width, images.height],
+        origin: [tile.x, tile.y],
+        size: [this.plan.width, this.plan.height],
+        inner_from: [tile.innerX[0], tile.innerY[0]],
+        inner_to: [tile.innerX[1], tile.innerY[1]],
+        quads: this.plan.input.quads,
+        main_image: images.main.layout,
+        albedo_image: images.albedo?.layout ?? [0, 0, 0, 0],
+        normal_image: images.normal?.layout ?? [0, 0, 0, 0],
+        output_image: images.output.layout,
+      });
+      data.set(new Uint8Array(bytes), i * ALIGNMENT);
+    }
+    this.#device.queue.writeBuffer(this.#tiles, 0, data);
+    if (images.scale !== undefined) this.#device.queue.writeBuffer(this.#scale, 0, Float32Array.of(images.scale));
+  }
+
+  /** The dispatches that denoise these images. Writes uniforms: one image at a time. */
+  jobs(images: BoundImages): Job[] {
+    const { exposure, scale, encode } = this.#prelude;
+    this.#write(images);
+    const device = this.#device;
+    const tile = { buffer: this.#tiles, offset: 0, size: tileStruct.size };
+    const scaleBuffer = { buffer: this.#scale, offset: 0, size: 16 };
+    const jobs: Job[] = [];
+    if (images.scale === undefined) {
+      const blocks = { buffer: this.#blocks, offset: 0, size: this.#blocks.size };
+      const once = { fromRow: 0, toRow: 1, z: 1, offsets: () => [0] };
+      jobs.push(
+        {
+          ...once,
+          name: 'exposure',
+          pipeline: exposure.pipeline,
+          group: bindGroup(device, exposure, { 2: blocks, 6: tile, 7: images.main.window }),
+          x: Math.ceil(images.width / 16),
+          yOfRow: Math.ceil(images.height / 16),
+          costOfRow: images.width * images.height * ENCODE_COST,
+        },
+        {
+          ...once,
+          name: 'scale',
+          pipeline: scale.pipeline,
+          group: bindGroup(device, scale, { 2: blocks, 5: scaleBuffer, 6: tile }),
+          x: 1,
+          yOfRow: 1,
+          costOfRow: images.width * images.height,
+        },
+      );
+    }
+    const shared = { 6: tile, 7: images.main.window, 8: scaleBuffer };
+    const encodings = this.plan.encode.map(({ fromRow, toRow, result }, i) => ({
+      fromRow,
+      toRow,
+      group: bindGroup(device, encode, {
+        ...shared,
+        0: { buffer: this.#encodeBases, offset: i * ALIGNMENT, size: 16 },
+        1: { buffer: this.#rows, offset: 0, size: 16 },
+        ...(images.albedo ? { 3: images.albedo.window } : {}),
+        ...(images.normal ? { 4: images.normal.window } : {}),
+        5: this.#window(result),
+      }),
+    }));
+    for (const i of this.tiling.tiles.keys()) {
+      for (const encoding of encodings)
+        jobs.push({
+          ...encoding,
+          name: 'encode',
+          pipeline: encode.pipeline,
+          x: Math.ceil(this.plan.width / 64),
+          yOfRow: ENCODE_ROWS,
+          z: 1,
+          costOfRow: this.plan.width * ENCODE_ROWS * ENCODE_COST,
+          offsets: (row) => [row * ALIGNMENT, i * ALIGNMENT],
+        });
+      for (const { plan, kernel, strips } of this.#layers)
+        for (const { strip, resources, group } of strips)
+          jobs.push({
+            name: plan.layer.name,
+            pipeline: kernel.pipeline,
+            group: group ?? bindGroup(device, kernel, { ...resources, ...shared, 5: images.output.window }),
+            x: plan.workgroups[0],
+            yOfRow: 1,
+            z: plan.workgroups[2],
+            fromRow: strip.fromRow,
+            toRow: strip.toRow,
+            costOfRow: plan.costOfRow,
+            offsets: (row) => (group ? [row * ALIGNMENT] : [row * ALIGNMENT, i * ALIGNMENT]),
+          });
+    }
+    return jobs;
+  }
+
+  destroy(): void {
+    for (const buffer of [...this.#buffers, ...this.#own]) buffer.destroy();
+  }
+}
