@@ -23,7 +23,7 @@ export default glanzPackage({
   'tree-quality': 'src/tree-quality.ts',
   wgsl: 'src/wgsl/index.ts',
   wide: 'src/wide/index.ts',
-  'wgsl-wide': 'src/wgsl-wide/index.ts',
+  'wgsl-wide': 'src/wgsl/wide/index.ts',
   workers: 'src/worker/workers.ts',
   worker: 'src/worker/worker.ts',
 });

@@ -166,7 +166,7 @@ function scriptOf(path) {
 function weslImports(src, file) {
   return [...readFileSync(file, 'utf8').matchAll(/^\s*import package::([\w:]+)::/gm)].flatMap(([, path]) => {
     const base = join(src, ...path.split('::'));
-    const target = [`${base}.wesl`, `${base}.wgsl.ts`, `${base}.ts`].find((candidate) => existsSync(candidate));
+    const target = [`${base}.wesl`, `${base}.ts`].find((candidate) => existsSync(candidate));
     return target ? [{ target, typeOnly: false }] : [];
   });
 }

@@ -7,5 +7,5 @@ export const LIMITS: { readonly lines: number; readonly gates: number; readonly 
  */
 export function brokenRules(text: string, file: string): string[];
 
-/** How many lines of a TypeScript source begin, turn or end a gate. */
-export function gateLines(text: string): number;
+/** Whether a source begins, turns or ends a gate of the composer. */
+export function hasGates(text: string): boolean;

@@ -43,5 +43,5 @@ export function brokenRules(text, file) {
   return messages;
 }
 
-/** How many lines of a TypeScript source begin, turn or end a gate. */
-export const gateLines = (text) => text.split('\n').filter((line) => /\/\/#(if|else|endif)/.test(line)).length;
+/** Whether a source begins, turns or ends a gate of the composer. */
+export const hasGates = (text) => /\/\/#(if|else|endif)\b/.test(text);

@@ -16,7 +16,7 @@ import {
 import { bvhStatistics } from '../src/statistics';
 import { widenBlas, widenTlas } from '../src/wide/index';
 import { bvhBuffers, bvhClosestHit, bvhOffset, packHierarchy } from '../src/wgsl/index';
-import { bvhClosestHit as bvhClosestHitWide } from '../src/wgsl-wide/index';
+import { bvhClosestHit as bvhClosestHitWide } from '../src/wgsl/wide/index';
 import { bruteForce, direction, randomNumbers, sphere } from './shapes';
 
 const BUILDERS: readonly (readonly [string, BlasOptions])[] = [

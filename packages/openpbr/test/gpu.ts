@@ -34,9 +34,10 @@ export interface GpuResult {
 const { dielectric, conductor } = OPENPBR_TABLES;
 
 /** The host's part: the tables in a buffer, filtered by hand, so that the precision is that of the arithmetic. */
-const host = wgslModule(
-  'test/host',
-  /* wgsl */ `
+const host = (transmission: boolean) =>
+  wgslModule(
+    'test/host',
+    /* wgsl */ `
 struct Case { wo: vec4f, wi: vec4f, u: vec4f }
 struct Result { f: vec3f, pdf: f32, together: vec4f, wi: vec3f, sample_pdf: f32, weight: vec3f, valid: f32, emission: vec3f, opacity: f32, albedo: vec4f }
 @group(0) @binding(0) var<storage, read> tables: array<f32>;
@@ -66,27 +67,21 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return table(${dielectric.dat
   let p = materials[id.x];
   let wo = cases[id.x].wo.xyz;
   let wi = cases[id.x].wi.xyz;
-  //#if OPENPBR_TRANSMISSION
-  let b = openpbr_prepare_side(p, wo, OpenPbrSide(cases[id.x].wo.w != 0.0, cases[id.x].wi.w));
-  //#else
-  let b = openpbr_prepare(p, wo);
-  //#endif
+  let b = ${transmission ? 'openpbr_prepare_side(p, wo, OpenPbrSide(cases[id.x].wo.w != 0.0, cases[id.x].wi.w))' : 'openpbr_prepare(p, wo)'};
   let s = openpbr_sample(b, wo, cases[id.x].u.xyz);
   let together = openpbr_eval_pdf(b, wo, wi);
   // Both by themselves where that is quick to compile: they are the same function's parts.
   var alone = together;
-  //#if !OPENPBR_TRANSMISSION
-  alone = vec4f(openpbr_eval(b, wo, wi), openpbr_pdf(b, wo, wi));
-  //#endif
+  ${transmission ? '' : 'alone = vec4f(openpbr_eval(b, wo, wi), openpbr_pdf(b, wo, wi));'}
   results[id.x] = Result(
     alone.xyz, alone.w, together,
     s.wi, s.pdf, s.weight, f32(s.valid) + 2.0 * f32(s.transmitted) + 4.0 * f32(s.subsurface), openpbr_emission(p, wo), openpbr_opacity(p), vec4f(openpbr_albedo(b, wo), 0.0));
 }`,
-  [openpbr],
-);
+    [openpbr],
+  );
 
 /** The shader text for a set of flags. */
-export const gpuShader = (flags: OpenPbrFlags) => compose([host], { flags: { ...flags } });
+export const gpuShader = (flags: OpenPbrFlags) => compose([host(flags.OPENPBR_TRANSMISSION)], { flags: { ...flags } });
 
 /** Runs the public WGSL functions over the cases on the test device. */
 export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Promise<GpuResult[]> {

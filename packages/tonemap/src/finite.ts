@@ -1,27 +1,16 @@
-import { wgslModule } from '@glanz/wgsl/module';
+import type { WgslModule } from '@glanz/wgsl/module';
+import { TONEMAP_MAX } from './constants.wesl';
+import finiteModule from './finite.wesl';
 import type { Rgb } from './names';
 
-/**
- * The brightest value a view transform computes with: 2^20, twenty stops above white. Everything brighter is white in
- * all of them, and squares of it stay far from overflow in 32-bit floats.
- */
-export const TONEMAP_MAX = 1048576;
+export { TONEMAP_MAX };
 
 /**
  * WGSL `fn tonemap_finite(v: vec3f) -> vec3f`: NaN and negative components to 0, +∞ and anything above
  * {@link TONEMAP_MAX} to it. NaN is detected by its bits: WGSL lets compilers assume that it never occurs, so `v != v`
  * and `max(v, 0)` differ between implementations.
  */
-export const tonemapFinite = wgslModule(
-  'tonemap/finite',
-  /* wgsl */ `fn tonemap_finite(v: vec3f) -> vec3f {
-  let bits = bitcast<vec3u>(v);
-  let magnitude = bits & vec3u(0x7fffffffu);
-  let zero = (magnitude > vec3u(0x7f800000u)) | (bits > vec3u(0x7fffffffu));
-  let big = magnitude > vec3u(${(127 + 20) * 2 ** 23}u);
-  return select(select(v, vec3f(${TONEMAP_MAX}.0), big), vec3f(0.0), zero);
-}`,
-);
+export const tonemapFinite: WgslModule = finiteModule;
 
 /** A function of one number for each component. */
 export function mapRgb(rgb: Rgb, f: (v: number) => number): [number, number, number] {

@@ -2,7 +2,7 @@ import { compose } from '@glanz/wgsl/compose';
 import { wgslModule } from '@glanz/wgsl/module';
 import { ToneMapError, type ToneMap } from './names';
 import { toneMapOperator } from './operators';
-import { tonemapSrgb } from './srgb';
+import pass from './pass.wesl';
 import { checkToneMapOptions, type ToneMapOptions } from './tone-map';
 
 /** Options for {@link ToneMapPass.create}. */
@@ -21,51 +21,12 @@ export interface ToneMapPassOptions extends ToneMapOptions {
 /** Options that can change between two draws. */
 export type ToneMapPassSettings = Partial<Pick<ToneMapPassOptions, 'exposure' | 'toneMap' | 'alpha' | 'filter'>>;
 
-// Two vec4f rather than a struct: source size and target size; exposure factor, opaque, bilinear. A description by
-// struct() would be a fifth of this package's size.
+/** The pass with one of the operators. */
 const passModule = (toneMap: ToneMap) =>
   wgslModule(
     `tonemap/pass-${toneMap}`,
-    /* wgsl */ `
-@group(0) @binding(0) var<uniform> tonemap_uniforms: array<vec4f, 2>;
-@group(0) @binding(1) var<storage, read> tonemap_source: array<vec4f>;
-
-@vertex fn tonemap_vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f {
-  return vec4f(f32((i & 1u) << 2u) - 1.0, f32((i & 2u) << 1u) - 1.0, 0.0, 1.0);
-}
-
-fn tonemap_texel(p: vec2i) -> vec4f {
-  let size = vec2i(tonemap_uniforms[0].xy);
-  let q = clamp(p, vec2i(0), size - 1);
-  return tonemap_source[q.y * size.x + q.x];
-}
-
-@fragment fn tonemap_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-  let p = position.xy * tonemap_uniforms[0].xy / tonemap_uniforms[0].zw;
-  let settings = tonemap_uniforms[1];
-  var texel: vec4f;
-  if (settings.z > 0.0) {
-    let corner = floor(p - 0.5);
-    let f = p - 0.5 - corner;
-    let c = vec2i(corner);
-    texel = mix(
-      mix(tonemap_texel(c), tonemap_texel(c + vec2i(1, 0)), f.x),
-      mix(tonemap_texel(c + vec2i(0, 1)), tonemap_texel(c + vec2i(1, 1)), f.x), f.y);
-  } else {
-    texel = tonemap_texel(vec2i(p));
-  }
-  var alpha = 1.0;
-  if (settings.y == 0.0) {
-    alpha = min(tonemap_finite(texel.aaa).x, 1.0);
-  }
-  if (alpha < 1e-6) { return vec4f(0.0); }
-  var rgb = tonemap_${toneMap}(texel.rgb * (settings.x / alpha));
-//#if TONEMAP_ENCODE
-  rgb = tonemap_srgb_encode(rgb);
-//#endif
-  return vec4f(rgb * alpha, alpha);
-}`,
-    [toneMapOperator(toneMap).wgsl, tonemapSrgb],
+    `fn tonemap_operator(linear:vec3f)->vec3f{return tonemap_${toneMap}(linear);}`,
+    [toneMapOperator(toneMap).wgsl, pass],
   );
 
 /**

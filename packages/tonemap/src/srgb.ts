@@ -1,15 +1,10 @@
-import { wgslModule } from '@glanz/wgsl/module';
+import type { WgslModule } from '@glanz/wgsl/module';
+import srgb from './srgb.wesl';
 
 /**
  * WGSL `fn tonemap_srgb_encode(linear: vec3f) -> vec3f`: linear 0..1 (clamped) to the sRGB code 0..1 (IEC 61966-2-1).
  */
-export const tonemapSrgb = wgslModule(
-  'tonemap/srgb',
-  /* wgsl */ `fn tonemap_srgb_encode(linear: vec3f) -> vec3f {
-  let c = clamp(linear, vec3f(0.0), vec3f(1.0));
-  return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3f(0.0031308));
-}`,
-);
+export const tonemapSrgb: WgslModule = srgb;
 
 /** Linear 0..1 to the sRGB code 0..1 (IEC 61966-2-1); clamps, and NaN gives 0. */
 export function srgbEncode(linear: number): number {

@@ -1,10 +1,10 @@
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { expect, it } from 'vitest';
 import { checkWesl } from '../../check-wesl.mjs';
-import { brokenRules, gateLines } from '../wesl-rules.mjs';
+import { brokenRules, hasGates } from '../wesl-rules.mjs';
 
 const broken = (text: string) => brokenRules(text, 'a.wesl');
 const lines = (count: number, line: string) => `${line}\n`.repeat(count);
@@ -25,35 +25,31 @@ it('a line has at most 120 columns, of characters', () => {
   expect(broken(`\n// ${'x'.repeat(118)}`)).toEqual(['a.wesl:2: 121 columns, at most 120']);
 });
 
-it('the lines of gates in a template are counted', () => {
-  expect(gateLines('const a = `\n//#if A\n  x //#else y\n//#endif\n// if\n`;')).toBe(3);
+it('gates are recognised', () => {
+  expect(hasGates('const a = `\n  //#if A\n`;')).toBe(true);
+  expect(hasGates('const a = `x //#else y`;')).toBe(true);
+  expect(hasGates('// if\n//# if\n//#elsewhere')).toBe(false);
 });
 
-it('the list of templates with gates only shrinks', async () => {
+it('files that break a rule are named; gates belong to the composer', async () => {
   const base = mkdtempSync(join(tmpdir(), 'glanz-wesl-'));
   try {
     const put = (file: string, text: string) => {
       mkdirSync(dirname(join(base, file)), { recursive: true });
       writeFileSync(join(base, file), text);
     };
-    const list = 'tools/pipeline/wesl-templates.json';
     execFileSync('git', ['init', '-q', base]);
     put('packages/a/src/a.wesl', 'fn a() {}');
-    put('packages/a/src/old.wgsl.ts', '`\n//#if A\n//#endif`');
+    put('packages/a/src/a.ts', '`fn a() {}`');
     put('packages/wgsl/src/compose.ts', '// //#if is read');
-    put(list, '{ "packages/a/src/old.wgsl.ts": 3, "packages/a/src/gone.wgsl.ts": 4 }');
-    expect((await checkWesl(base, { write: true })).lines).toEqual([]);
-    expect(JSON.parse(readFileSync(join(base, list), 'utf8'))).toEqual({ 'packages/a/src/old.wgsl.ts': 2 });
+    expect((await checkWesl(base)).lines).toEqual([]);
 
-    put('packages/a/src/old.wgsl.ts', '`\n//#if A\n//#else\n//#endif`');
-    put('packages/a/src/new.ts', '`//#if A\n`');
+    put('packages/a/test/new.ts', '`//#if A\n`');
     put('packages/a/src/wrong.wesl', 'fn a( {}');
-    const { lines: found } = await checkWesl(base, { write: true });
-    expect(found).toHaveLength(3);
+    const { lines: found } = await checkWesl(base);
+    expect(found).toHaveLength(2);
     expect(found.join('\n')).toMatch(/wrong\.wesl:1: /);
-    expect(found.join('\n')).toMatch(/new\.ts: 1 lines of gates in a template, 0 are listed/);
-    expect(found.join('\n')).toMatch(/old\.wgsl\.ts: 3 lines of gates in a template, 2 are listed/);
-    expect(JSON.parse(readFileSync(join(base, list), 'utf8'))).toEqual({ 'packages/a/src/old.wgsl.ts': 2 });
+    expect(found.join('\n')).toMatch(/test\/new\.ts: gates/);
   } finally {
     rmSync(base, { recursive: true, force: true });
   }

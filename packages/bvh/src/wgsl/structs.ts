@@ -32,5 +32,8 @@ export const bvhInstanceStruct = struct('BvhInstance', {
   flags: 'u32',
 });
 
+/** The module of {@link bvhNodeStruct}, by the name that shaders import. */
+export const BvhNode = bvhNodeStruct.module;
+
 /** The module of {@link bvhInstanceStruct}, by the name that shaders import. */
 export const BvhInstance = bvhInstanceStruct.module;

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { buildBlas, buildTlas, packTriangles } from '../../src/index';
 import { bvhInstanceStruct, bvhNodeStruct, packHierarchy } from '../../src/wgsl/index';
 import { widenBlas, widenTlas } from '../../src/wide/index';
-import { bvhNodeStruct as wideNodeStruct } from '../../src/wgsl-wide/index';
+import { bvhNodeStruct as wideNodeStruct } from '../../src/wgsl/wide/index';
 import { sphere } from '../shapes';
 
 const shifted = (x: number) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1];

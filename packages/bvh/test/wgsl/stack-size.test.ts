@@ -5,7 +5,7 @@ import { buildBlas, buildTlas, type TriangleMesh } from '../../src/index';
 import { bvhStatistics } from '../../src/statistics';
 import { widenBlas, widenTlas, type WideNodes } from '../../src/wide/index';
 import * as binary from '../../src/wgsl/index';
-import * as wide from '../../src/wgsl-wide/index';
+import * as wide from '../../src/wgsl/wide/index';
 import { affine, randomNumbers, strewn } from '../shapes';
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];

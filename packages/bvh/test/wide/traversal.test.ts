@@ -2,7 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { closestHitInstances } from '../../src/index';
 import { widenBlas, widenTlas } from '../../src/wide/index';
-import { bvhTraversal } from '../../src/wgsl-wide/index';
+import { bvhTraversal } from '../../src/wgsl/wide/index';
 import { trace as traceIn, upload, type Layout, type Placed } from '../gpu-trace';
 import { affine, direction, randomNumbers, sphere, strewn } from '../shapes';
 

@@ -14,3 +14,6 @@ export const bvhNodeStruct = struct('BvhNode', {
   children: 'vec4u',
   boxes: ['vec4u', 3],
 });
+
+/** The module of {@link bvhNodeStruct}, by the name that shaders import. */
+export const BvhNode = bvhNodeStruct.module;
