@@ -1,7 +1,7 @@
 import { DenoiseError } from './error';
 import { bindImages, checkSize, type BoundImages } from './images';
 import { JobCursor, costOf } from './jobs';
-import { chooseShape } from './kernels/choose-shape';
+import { chooseShape, withGroups } from './kernels/choose-shape';
 import type { KernelShape } from './kernels/shapes';
 import { readNetwork, type Layer, type Network } from './network';
 import { NetworkKernels } from './network-kernels';
@@ -68,8 +68,11 @@ export class Denoiser {
     this.#pace = new Pace(options.maxSubmitMs ?? 8);
     this.#kernels = new NetworkKernels(device, network, this.input, this.storage);
     const software = isSoftware(device);
-    this.#shapeOf = (layer, width, height) =>
-      options.shapeOf?.(layer, width, height) ?? chooseShape(layer, width, height, software);
+    this.#shapeOf = (layer, width, height) => {
+      const family = options.shapeOf?.(layer, width, height);
+      const shape = family && withGroups(family, layer.channels, layer.up !== undefined);
+      return shape ?? chooseShape(layer, width, height, software);
+    };
     this.#lost = device.lost.then(({ message }) => {
       throw new DenoiseError(
         'denoise/device',

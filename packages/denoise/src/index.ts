@@ -11,4 +11,4 @@ export type {
   ImageBuffer,
   LayerSize,
 } from './options';
-export type { KernelShape } from './kernels/shapes';
+export type { KernelFamily } from './kernels/shapes';

@@ -1,4 +1,4 @@
-import type { KernelShape } from './kernels/shapes';
+import type { KernelFamily } from './kernels/shapes';
 
 /**
  * What the image that a network cleans holds.
@@ -33,10 +33,11 @@ export interface DenoiserOptions {
   /** Ends the creation with the signal's reason. */
   readonly signal?: AbortSignal;
   /**
-   * For measurements: how a layer is cut into workgroups; `undefined` for the usual choice. Results differ by the order
-   * of nothing: each sum is computed in the same order.
+   * For measurements: how the threads of a layer of `width` × `height` pixels share its work; `undefined`, or what does
+   * not fit into workgroup memory, for the usual choice. Results do not depend on it: each sum is computed in the same
+   * order.
    */
-  readonly shapeOf?: (layer: LayerSize, width: number, height: number) => KernelShape | undefined;
+  readonly shapeOf?: (layer: LayerSize, width: number, height: number) => KernelFamily | undefined;
 }
 
 /** What a kernel's shape is chosen by. */

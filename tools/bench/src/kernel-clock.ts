@@ -3,13 +3,20 @@ const CAPACITY = 2048;
 
 /** What one kernel took. */
 export interface KernelTime {
-  /** The pipeline's label. */
+  /** The innermost debug group around its dispatches, or the pipeline's label. */
   readonly kernel: string;
+  /** The pipeline's label. */
+  readonly pipeline: string;
   /** GPU milliseconds of all its dispatches. */
   readonly milliseconds: number;
   readonly dispatches: number;
   /** Workgroups of its indirect dispatches. */
   readonly workgroups: number;
+}
+
+interface Name {
+  readonly kernel: string;
+  readonly pipeline: string;
 }
 
 /**
@@ -24,7 +31,7 @@ export class KernelClock {
   readonly #times: GPUBuffer;
   readonly #counts: GPUBuffer;
   readonly #restore: () => void;
-  #names: (string | undefined)[] | undefined;
+  #names: Name[] | undefined;
   #indirect: boolean[] = [];
 
   private constructor(device: GPUDevice) {
@@ -71,13 +78,15 @@ export class KernelClock {
 
   #pass(encoder: GPUCommandEncoder, descriptor: GPUComputePassDescriptor | undefined): GPUComputePassEncoder {
     let pipeline: GPUComputePipeline | undefined;
-    const groups: GPUBindGroup[] = [];
+    const groups: (readonly [GPUBindGroup, number[] | undefined])[] = [];
+    const around: string[] = [];
     const run = (
       indirect: readonly [GPUBuffer, number] | undefined,
       dispatch: (pass: GPUComputePassEncoder) => void,
     ) => {
-      const names = this.#names as (string | undefined)[];
-      const index = names.push(pipeline?.label) - 1;
+      const names = this.#names as Name[];
+      const label = pipeline?.label ?? 'unnamed';
+      const index = names.push({ kernel: around.at(-1) ?? label, pipeline: label }) - 1;
       this.#indirect[index] = indirect !== undefined;
       if (index >= CAPACITY) return;
       if (indirect) encoder.copyBufferToBuffer(indirect[0], indirect[1], this.#counts, 4 * index, 4);
@@ -90,13 +99,15 @@ export class KernelClock {
         },
       });
       pass.setPipeline(pipeline as GPUComputePipeline);
-      groups.forEach((group, i) => pass.setBindGroup(i, group));
+      groups.forEach(([group, offsets], i) => pass.setBindGroup(i, group, offsets));
       dispatch(pass);
       pass.end();
     };
     return {
       setPipeline: (next: GPUComputePipeline) => (pipeline = next),
-      setBindGroup: (index: number, group: GPUBindGroup) => (groups[index] = group),
+      setBindGroup: (index: number, group: GPUBindGroup, offsets?: number[]) => (groups[index] = [group, offsets]),
+      pushDebugGroup: (name: string) => around.push(name),
+      popDebugGroup: () => around.pop(),
       dispatchWorkgroups: (x: number, y?: number, z?: number) =>
         run(undefined, (pass) => pass.dispatchWorkgroups(x, y, z)),
       dispatchWorkgroupsIndirect: (buffer: GPUBuffer, offset: number) =>
@@ -111,7 +122,7 @@ export class KernelClock {
    * @throws {RangeError} when there are more dispatches than the clock can hold.
    */
   async measure(work: () => Promise<void>): Promise<KernelTime[]> {
-    const names: (string | undefined)[] = [];
+    const names: Name[] = [];
     this.#names = names;
     try {
       await work();
@@ -135,16 +146,17 @@ export class KernelClock {
     return this.#sum(names, new BigUint64Array(data, 0, 2 * CAPACITY), new Uint32Array(data, 16 * CAPACITY));
   }
 
-  #sum(names: readonly (string | undefined)[], times: BigUint64Array, counts: Uint32Array): KernelTime[] {
-    const sums = new Map<string, { milliseconds: number; dispatches: number; workgroups: number }>();
-    names.forEach((name = 'unnamed', i) => {
-      const sum = sums.get(name) ?? { milliseconds: 0, dispatches: 0, workgroups: 0 };
+  #sum(names: readonly Name[], times: BigUint64Array, counts: Uint32Array): KernelTime[] {
+    const sums = new Map<string, { -readonly [K in keyof KernelTime]: KernelTime[K] }>();
+    names.forEach((name, i) => {
+      const key = `${name.kernel}\n${name.pipeline}`;
+      const sum = sums.get(key) ?? { ...name, milliseconds: 0, dispatches: 0, workgroups: 0 };
       sum.milliseconds += Number((times[2 * i + 1] as bigint) - (times[2 * i] as bigint)) / 1e6;
       sum.dispatches++;
       if (this.#indirect[i]) sum.workgroups += counts[i] as number;
-      sums.set(name, sum);
+      sums.set(key, sum);
     });
-    return [...sums].map(([kernel, sum]) => ({ kernel, ...sum }));
+    return [...sums.values()];
   }
 
   destroy(): void {

@@ -1,6 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import finish from './finish.wesl';
-import { stagedUpChannels, threadsOf, tileHeight, type KernelShape } from './shapes';
+import { stagedUpChannels, stagesWeights, threadsOf, tileHeight, type KernelShape } from './shapes';
 import { DenoiseLayer } from './layouts';
 import tensor from './tensor.wesl';
 
@@ -54,8 +54,8 @@ class Emitter {
 ${up ? '@group(0) @binding(4) var<storage, read> denoise_up: array<DenoiseTexel>;' : ''}
 ${last ? '' : '@group(0) @binding(5) var<storage, read_write> denoise_result: array<DenoiseTexel>;'}
 var<workgroup> denoise_patch: array<array<array<vec4f, ${shape.threadsX + 1}>, ${this.#patchRows}>, 4>;
-${shape.weights === 'workgroup' ? `var<workgroup> denoise_staged: ${staged(9, 4)};` : ''}
-${up && shape.weights === 'workgroup' ? `var<workgroup> denoise_staged_up: ${staged(16, stagedUpChannels(shape, true))};` : ''}`;
+${stagesWeights(shape) ? `var<workgroup> denoise_staged: ${staged(9, 4)};` : ''}
+${up && stagesWeights(shape) ? `var<workgroup> denoise_staged_up: ${staged(16, stagedUpChannels(shape, true))};` : ''}`;
   }
 
   /**
@@ -117,7 +117,7 @@ fn denoise_stage_${source}_weights(first: u32, output: u32, thread: u32) {
     const quads = this.#quads;
     const parity = source === 'up' ? `parity * ${8 * quads}u + ` : '';
     return lines(quads, (n) =>
-      this.#shape.weights === 'workgroup'
+      stagesWeights(this.#shape)
         ? `let ${name}${n} = ${STAGED[source]}[channel][group][${parity}${tap * quads + n}u];`
         : `let ${name}${n} = denoise_weights[row + ${tap}u * denoise_layer.output_quads + ${n}u];`,
     );
@@ -220,7 +220,7 @@ fn denoise_stage_${source}_weights(first: u32, output: u32, thread: u32) {
   /** The loop over a source's quads of channels. */
   #quadLoop(source: 'direct' | 'up'): string {
     const up = source === 'up';
-    const staged = this.#shape.weights === 'workgroup';
+    const staged = stagesWeights(this.#shape);
     const channels = up && staged ? stagedUpChannels(this.#shape, true) : 4;
     const before = up ? '(quad * 4u + channel) * 16u + parity * 8u' : '(quad * 4u + channel) * 9u';
     const unstaged = `denoise_layer.${source}_weights + (${before}) * denoise_layer.output_quads + output`;
@@ -274,7 +274,7 @@ ${this.store()}
 
   text(): string {
     const { up, shape } = this.#kernel;
-    const staged = shape.weights === 'workgroup';
+    const staged = stagesWeights(shape);
     return [
       this.declarations(),
       this.stagePixels('direct', this.#patchRows, shape.threadsX + 1, 4),

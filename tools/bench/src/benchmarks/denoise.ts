@@ -1,0 +1,248 @@
+import { Denoiser, type DenoiserOptions, type DenoiserStorage, type KernelFamily } from '@glanz/denoise';
+import { requestDevice } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
+import { flopOf, layersOf, randomArchive, type NetworkSize } from '../denoise/networks';
+import { measurePeak } from '../denoise/peak';
+import { VARIANTS, familyName } from '../denoise/variants';
+import { BenchError } from '../error';
+import { GpuClock } from '../gpu-clock';
+import { KernelClock } from '../kernel-clock';
+
+const SIZES = { '512': [512, 512], '1080p': [1920, 1080], '2160p': [3840, 2160], '128': [128, 128] } as const;
+type SizeName = keyof typeof SIZES;
+
+/** Milliseconds on an H200: what is aimed at, and what Open Image Denoise 2.5.1 takes there with its tensor cores. */
+const AIMS: Readonly<Record<string, number>> = {
+  'small 1080p': 6,
+  'base 512': 2.2,
+  'base 1080p': 12,
+  'large 1080p': 32,
+};
+const OIDN: Readonly<Record<string, number>> = {
+  'small 512': 0.41,
+  'small 1080p': 2.17,
+  'small 2160p': 8.6,
+  'base 512': 0.6,
+  'base 1080p': 3.33,
+  'base 2160p': 13.5,
+  'large 512': 1.09,
+  'large 1080p': 6.5,
+  'large 2160p': 26.9,
+};
+
+function listOf<T extends string>(option: string, text: string | undefined, known: readonly T[], usual: readonly T[]) {
+  if (text === undefined) return usual;
+  const names = text.split(',');
+  for (const name of names)
+    if (!known.includes(name as T))
+      throw new BenchError('bench/option', `--${option} ${name}: there are ${known.join(', ')}.`);
+  return names as T[];
+}
+
+/** Images of a size, and what is measured on them. */
+class Subject {
+  readonly #device: GPUDevice;
+  readonly #buffers: Readonly<Record<'color' | 'albedo' | 'normal' | 'output', GPUBuffer>>;
+  readonly width: number;
+  readonly height: number;
+
+  constructor(device: GPUDevice, size: SizeName) {
+    this.#device = device;
+    [this.width, this.height] = SIZES[size];
+    const make = (low: number, high: number) => {
+      const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST;
+      const buffer = device.createBuffer({ size: this.width * this.height * 16, usage });
+      let state = 1;
+      const data = new Float32Array(this.width * this.height * 4);
+      for (let i = 0; i < data.length; i++) {
+        state = (state * 48271) % 2147483647;
+        data[i] = low + ((high - low) * state) / 2147483647;
+      }
+      device.queue.writeBuffer(buffer, 0, data);
+      return buffer;
+    };
+    this.#buffers = { color: make(0, 1), albedo: make(0, 1), normal: make(-1, 1), output: make(0, 0) };
+  }
+
+  /** Creates a denoiser, gives it to `use`, and destroys it. */
+  async with<T>(
+    network: NetworkSize,
+    options: DenoiserOptions,
+    use: (run: () => Promise<void>, denoiser: Denoiser) => Promise<T>,
+  ): Promise<T> {
+    const denoiser = await Denoiser.create(this.#device, randomArchive(network), { maxSubmitMs: Infinity, ...options });
+    try {
+      const { width, height } = this;
+      return await use(async () => void (await denoiser.denoise({ ...this.#buffers, width, height })), denoiser);
+    } finally {
+      denoiser.destroy();
+    }
+  }
+
+  destroy(): void {
+    for (const buffer of Object.values(this.#buffers)) buffer.destroy();
+  }
+}
+
+/** GPU milliseconds of each kernel: the smallest of several runs. */
+async function kernelTimes(device: GPUDevice, runs: number, run: () => Promise<void>) {
+  const times = new Map<string, { pipeline: string; ms: number }>();
+  const clock = KernelClock.create(device);
+  if (!clock) return times;
+  for (let i = 0; i < runs; i++)
+    for (const { kernel, pipeline, milliseconds } of await clock.measure(run)) {
+      const known = times.get(kernel);
+      if (!known || known.ms > milliseconds) times.set(kernel, { pipeline, ms: milliseconds });
+    }
+  clock.destroy();
+  return times;
+}
+
+/** Runs until the GPU has come to its clock. */
+async function warmUp(run: () => Promise<void>, milliseconds: number): Promise<void> {
+  const start = performance.now();
+  do await run();
+  while (performance.now() - start < milliseconds);
+}
+
+/** The denoiser's networks at several sizes: whole images, layer by layer, and ways to share a layer among threads. */
+export const benchmark: Benchmark = {
+  description:
+    'the denoiser: milliseconds an image by network and size, of each layer with its share of the peak of arithmetic, and kernel variants side by side',
+  options: {
+    networks: { type: 'string', help: 'of small,base,large; default all' },
+    sizes: { type: 'string', help: 'of 128,512,1080p,2160p; default 512,1080p, on software GPUs 128' },
+    storage: { type: 'string', help: 'f16 (default) or f32' },
+    variants: { type: 'string', help: '"no": only the usual kernels; or numbers of variants, 0,3,…' },
+    deadline: { type: 'string', help: 'seconds after which no further variant is tried; default 480' },
+  },
+  async run({ log, quick, gpu, values }) {
+    const started = performance.now();
+    const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
+    const device = await requestDevice({ gpu: api });
+    const small = quick || software;
+    const networks = listOf('networks', values['networks'], ['small', 'base', 'large'], [
+      'base',
+      'small',
+      'large',
+    ] as NetworkSize[]);
+    const sizes = listOf(
+      'sizes',
+      values['sizes'],
+      Object.keys(SIZES) as SizeName[],
+      small ? ['128'] : ['1080p', '512'],
+    );
+    const storage = listOf('storage', values['storage'], ['f16', 'f32'] as DenoiserStorage[], ['f16'])[0]!;
+    const deadline = 1e3 * Number(values['deadline'] ?? 480);
+    const variants =
+      values['variants'] === 'no' || (small && values['variants'] === undefined)
+        ? []
+        : values['variants'] === undefined
+          ? VARIANTS
+          : values['variants'].split(',').map((i) => VARIANTS[Number(i)]!);
+    const runs = small ? 3 : 30;
+    const settle = small ? 0 : 300;
+    const figures: Figure[] = [];
+    const notes: string[] = ['weights are random: they do not change the speed'];
+    const gpuClock = GpuClock.create(device);
+    if (!gpuClock) notes.push('no timestamp queries: wall times alone');
+    const gpuTime = async (work: () => Promise<void>) =>
+      gpuClock ? (await gpuClock.measure(work)).busy : (await wallTimes(1, 0, work))[0]!;
+    const peak = await measurePeak(device, gpuTime, small ? 64 : 16384);
+    figures.push(timed('peak of f32 multiply-adds, measured', 'TFLOP/s', [peak / 1e12]));
+    log(`peak ${(peak / 1e12).toFixed(1)} TFLOP/s`);
+    const details: unknown[] = [];
+
+    /** A whole image: GPU and wall time. */
+    const whole = async (name: string, key: string, run: () => Promise<void>) => {
+      await warmUp(run, settle);
+      const busy: number[] = [];
+      for (let i = 0; i < runs; i++) busy.push(await gpuTime(run));
+      const value = AIMS[key];
+      const aim =
+        value === undefined || small ? undefined : { value, relation: '<=' as const, source: 'aim for an H200' };
+      figures.push(
+        timed(`${name}: GPU time`, 'ms', busy, aim),
+        timed(`${name}: wall time`, 'ms', await wallTimes(runs, 1, run)),
+      );
+      const { median = NaN } = figures.at(-2)!;
+      const native = OIDN[key];
+      if (native !== undefined && !small)
+        figures.push(timed(`${name}: GPU time over that of Open Image Denoise on an H200`, '1', [median / native]));
+      log(`${name}: ${median.toFixed(3)} ms (${busy.map((ms) => ms.toFixed(2)).join(' ')})`);
+    };
+
+    const jobs = sizes.flatMap((size) => networks.map((network) => ({ size, network })));
+    for (const { size, network } of jobs) {
+      const subject = new Subject(device, size);
+      const key = `${network} ${size}`;
+      const compile = performance.now();
+      await subject.with(network, { storage }, async (run, denoiser) => {
+        await denoiser.prepare(subject.width, subject.height);
+        figures.push(timed(`${key}: prepare`, 'ms', [performance.now() - compile]));
+        await whole(key, key, run);
+        figures.push(timed(`${key}: GPU memory`, 'MB', [denoiser.memoryBytes / 1e6]));
+        const layers = layersOf(network);
+        for (const [kernel, { pipeline, ms }] of await kernelTimes(device, small ? 1 : 10, run)) {
+          const layer = layers.find(({ name }) => name === kernel);
+          const flop = layer && flopOf(layer, subject.width, subject.height);
+          const share = flop === undefined ? undefined : flop / (ms / 1e3) / peak;
+          figures.push(timed(`${key}, ${kernel}`, 'ms', [ms]));
+          if (share !== undefined) figures.push(timed(`${key}, ${kernel}: share of the peak`, '%', [100 * share]));
+          details.push({ network, size, kernel, pipeline, ms, gflop: flop && flop / 1e9, share });
+          log(
+            `  ${kernel}: ${ms.toFixed(3)} ms${share === undefined ? '' : `, ${(100 * share).toFixed(0)} % of the peak`} (${pipeline})`,
+          );
+        }
+      });
+      subject.destroy();
+    }
+
+    // Variants, layer by layer; then all layers with what was best for each.
+    for (const { size, network } of variants.length === 0 ? [] : jobs) {
+      const subject = new Subject(device, size);
+      const key = `${network} ${size}`;
+      const best = new Map<string, { family: KernelFamily; ms: number }>();
+      for (const family of variants) {
+        if (performance.now() - started > deadline) {
+          notes.push(`${key}: not all variants were tried before the deadline`);
+          break;
+        }
+        await subject.with(network, { storage, shapeOf: () => family }, async (run) => {
+          const begin = performance.now();
+          await warmUp(run, settle / 3);
+          const prepared = performance.now() - begin;
+          const times = await kernelTimes(device, small ? 1 : 5, run);
+          const wall = Math.min(...(await wallTimes(small ? 1 : 5, 0, run)));
+          log(`${key}, ${familyName(family)}: ${wall.toFixed(2)} ms (compiled in ${prepared.toFixed(0)} ms)`);
+          for (const [kernel, { pipeline, ms }] of times) {
+            details.push({ network, size, kernel, pipeline, ms, variant: familyName(family), wall });
+            // What did not fit was passed over.
+            if (!pipeline.includes(`threads of 4x${family.rows}x${family.outputs}`)) continue;
+            if (ms < (best.get(kernel)?.ms ?? Infinity)) best.set(kernel, { family, ms });
+          }
+        });
+      }
+      const layers = layersOf(network);
+      for (const [kernel, { family, ms }] of best) {
+        const layer = layers.find(({ name }) => name === kernel)!;
+        const share = flopOf(layer, subject.width, subject.height) / (ms / 1e3) / peak;
+        log(`  best for ${key}, ${kernel}: ${ms.toFixed(3)} ms, ${(100 * share).toFixed(0)} %: ${familyName(family)}`);
+      }
+      await subject.with(network, { storage, shapeOf: ({ name }) => best.get(name)?.family }, (run) =>
+        whole(`${key}, best variant for each layer`, key, run),
+      );
+      subject.destroy();
+    }
+    gpuClock?.destroy();
+    device.destroy();
+    return {
+      settings: { networks, sizes, storage, channels: 9, runs, variants: variants.map(familyName) },
+      gpu: { name: adapterName, software },
+      figures,
+      notes,
+      details,
+    };
+  },
+};
