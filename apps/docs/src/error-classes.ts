@@ -18,7 +18,7 @@ export function errorClasses(packageName: string, source: string): ErrorClass[] 
       .replace(/\{@link (\w+)\}/g, '$1')
       .trim();
     const [summary = '', list = ''] = text.split(/Codes?: /);
-    const codes = [...list.matchAll(/`([a-z]+\/[a-z-]+)`(?: \(([^)]*)\))?/g)].map(([, code = '', note = '']) => ({
+    const codes = [...list.matchAll(/`([a-z-]+\/[a-z-]+)`(?: \(([^)]*)\))?/g)].map(([, code = '', note = '']) => ({
       code,
       note,
     }));

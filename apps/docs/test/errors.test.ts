@@ -8,7 +8,7 @@ const packages = fileURLToPath(new URL('../../../packages', import.meta.url));
 const guide = readFileSync(new URL('../guide/errors.md', import.meta.url), 'utf8');
 
 /** The page's entries: code, anchor, paragraph. */
-const entries = [...guide.matchAll(/^### `([a-z]+\/[a-z0-9-]+)` \{#([^}]+)\}\n([\s\S]*?)(?=\n#|$(?![\s\S]))/gm)].map(
+const entries = [...guide.matchAll(/^### `([a-z-]+\/[a-z0-9-]+)` \{#([^}]+)\}\n([\s\S]*?)(?=\n#|$(?![\s\S]))/gm)].map(
   ([, code = '', anchor = '', text = '']) => ({ code, anchor, text: text.trim() }),
 );
 const inSources = new Map(readdirSync(packages).flatMap((name) => [...errorCodes(name, `${packages}/${name}/src`)]));
@@ -37,7 +37,7 @@ describe('the errors page', () => {
       expect(text.split(/\s+/).length, `words about ${code}`).toBeGreaterThan(7);
       const section = guide
         .slice(0, guide.indexOf(`### \`${code}\``))
-        .match(/^## @glanz\/\w+$/gm)
+        .match(/^## @glanz\/[\w-]+$/gm)
         ?.at(-1);
       expect(section, code).toBe(`## @glanz/${code.split('/')[0]}`);
     }

@@ -1,4 +1,4 @@
 import { GlanzError } from '@glanz/wgsl/error';
 
-/** An error of reading weights: `denoise-weights/unreadable`. */
+/** Thrown by reading weights. Code: `denoise-weights/unreadable` (no such weights, or a file that is missing or damaged). */
 export class WeightsError extends GlanzError {}
