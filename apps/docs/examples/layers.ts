@@ -65,6 +65,19 @@ export async function toExr(tracer: PathTracer): Promise<Uint8Array> {
 }
 // #endregion exr
 
+// #region aovs
+export async function guidesOf(device: GPUDevice, scene: Scene) {
+  const tracer = await PathTracer.create(device, scene, {
+    width: 800,
+    height: 600,
+    aovs: ['albedo', 'normal'],
+  });
+  for await (const _ of tracer.render({ samples: 16 }));
+  // Channel c of pixel i: buffer[stride * i + offset + c], 32-bit floats
+  return [tracer.aov('albedo'), tracer.aov('normal')];
+}
+// #endregion aovs
+
 // #region lights
 export async function withLightGroups(device: GPUDevice, scene: Scene) {
   const tracer = await PathTracer.create(device, scene, {

@@ -25,6 +25,8 @@ function valuesOf(row: RenderOption, unit = ''): string {
       return 'true, false';
     case 'enum':
       return row.values.join(', ');
+    case 'names':
+      return `[ ${row.values.join(', ')} ]`;
     case 'filter':
       return `${Object.keys(row.radii).join(', ')}, or { type, radius } with a radius up to ${row.range[1]} pixels`;
     case 'limits':
@@ -50,7 +52,7 @@ export const optionRows = (
       type: row.type === 'filter' ? 'enum' : row.type === 'limits' ? 'integers' : row.type,
       values: valuesOf(row, unit),
       default:
-        row.default === undefined
+        row.default === undefined || row.type === 'names'
           ? 'none'
           : typeof row.default === 'number'
             ? number(row.default)

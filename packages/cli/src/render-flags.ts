@@ -18,9 +18,12 @@ import {
 } from '@glanz/renderer/options';
 import { CliError } from './errors';
 
-/** The command line renders for no screen: its submissions have a length of their own. */
-type Excluded = 'maxSubmitMs';
-const EXCLUDED: readonly RenderOptionName[] = ['maxSubmitMs' satisfies Excluded];
+/**
+ * The command line renders for no screen: its submissions have a length of their own. Which layers it needs follows from
+ * its outputs.
+ */
+type Excluded = 'maxSubmitMs' | 'aovs';
+const EXCLUDED: readonly RenderOptionName[] = ['maxSubmitMs', 'aovs'] satisfies readonly Excluded[];
 
 type FlagName = Exclude<RenderOptionName, Excluded>;
 type FlagOf<Name extends FlagName> = (typeof RENDER_OPTIONS)[Name] extends BooleanOption
@@ -87,6 +90,7 @@ const PLACEHOLDERS: Readonly<Record<RenderOption['type'], string>> = {
   enum: 'NAME',
   filter: 'NAME',
   limits: 'LIST',
+  names: 'LIST',
 };
 
 const COLUMN = 24;
@@ -115,6 +119,7 @@ function valuesText(name: FlagName): string {
         .map(named)
         .join(', ')}; NAME:RADIUS in pixels`,
     limits: () => `${(row as LimitsOption).values.join(', ')}: diffuse=2,specular=4`,
+    names: () => '',
     number: () => rangeText(row as NumberOption),
     integer: () => rangeText(row as NumberOption),
   };

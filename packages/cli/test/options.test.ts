@@ -214,9 +214,10 @@ describe('complains in one line, saying what to do', () => {
 });
 
 describe('the options of the table of the renderer', () => {
-  it('all have a flag but the length of a submission', () => {
+  it('all have a flag but the length of a submission and the layers, which follow from the outputs', () => {
     expect(Object.keys(RENDER_OPTIONS).filter((name) => !(FLAG_OPTIONS as string[]).includes(name))).toEqual([
       'maxSubmitMs',
+      'aovs',
     ]);
   });
 

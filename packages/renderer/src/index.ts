@@ -5,8 +5,10 @@ export { isSoftware } from './device/software';
 export { compressedFormats } from './materials/textures';
 export { PathTracer } from './path-tracer';
 export type {
+  AovName,
   BackFaceCulling,
   BounceLimits,
+  FilmAov,
   FilmLayer,
   HierarchyBuilder,
   LightGroup,

@@ -64,6 +64,12 @@ export interface PathTracerOptions {
   /** Biased: maximum number of bounces of each kind, besides `maxDepth`. What is not given is not limited. */
   readonly maxBounces?: BounceLimits;
   /**
+   * First-hit AOVs that the film keeps on the GPU from its first sample on, see `PathTracer.aov`. They are written by the
+   * paths themselves and average the film's first 64 samples: guides of denoisers and layers for compositing converge
+   * sooner than light. Default: none, which costs nothing; `PathTracer.setAovs` changes it later.
+   */
+  readonly aovs?: readonly AovName[];
+  /**
    * Compensate the energy that single-scattering microfacet models lose. Default true; false is for tests against such
    * references.
    */
@@ -149,6 +155,52 @@ export interface BounceLimits {
 
 /** See {@link PathTracerOptions.backFaceCulling}. */
 export type BackFaceCulling = 'off' | 'camera' | 'all';
+
+/**
+ * A first-hit AOV. The first surface is what the camera sees first, with the image's pixel filter, lens, opacity and
+ * culling; catchers are surfaces, lights without a mesh are not. A chain of smooth reflections and refractions goes on
+ * from there to the first surface that scatters light widely: what is seen in a mirror or behind clear glass. A surface
+ * belongs to a chain if at least three quarters of what it reflects and lets through go by microfacets of a roughness of
+ * at most 0.1, and the path leaves it by one of them.
+ *
+ * Of the surface at the end of the chain, as means over samples:
+ * - `albedo`: RGB: its directional albedo, 0..1, times what the chain lets through (reflectances, tints, absorption); 0
+ *   where there is no surface. A chain that leaves the scene ends at its last surface, as one does that a medium
+ *   scatters.
+ * - `normal`: XYZ: its shading normal in the world, on the side of the path; 0 where there is no surface. Of a chain that
+ *   leaves the scene, that of its first surface.
+ * - `virtualDepth`: metres along the chain, over samples that met a surface; 0 for none. Equal to `depth` where there is
+ *   no chain: how far away a reflection seems to be.
+ *
+ * Of the first surface, as means over samples:
+ * - `coverage`: 1 number: share of the samples that have met a surface.
+ * - `depth`: metres from the camera ray's origin, over samples that met a surface; 0 for none.
+ * - `position`: XYZ: position in the world, over samples that met a surface; 0 for none.
+ *
+ * Of the first surface of the sample nearest to the pixel's centre:
+ * - `objectId`, `materialId`: u32: index in `Scene.instances` and in `Scene.materials`; 0xffffffff for none.
+ */
+export type AovName =
+  'albedo' | 'normal' | 'virtualDepth' | 'coverage' | 'depth' | 'position' | 'objectId' | 'materialId';
+
+/** Where an AOV lies on the GPU, see {@link PathTracer.aov}. */
+export interface FilmAov {
+  /**
+   * The pixels, row-major, top row first. It has the usages `STORAGE` and `COPY_SRC`. With a render scale below 1 only
+   * its beginning is in use. Replaced by `resize()`, and gone when the AOV is no longer requested.
+   */
+  readonly buffer: GPUBuffer;
+  /** What the numbers are: f32, or u32 for ids. */
+  readonly format: 'float32' | 'uint32';
+  /** 32-bit numbers from one pixel to the next: 4, so the buffer is an `array<vec4f>` or `array<vec4u>`. */
+  readonly stride: number;
+  /** The first of the AOV's own numbers in a pixel, counted from 0. The others may belong to other AOVs. */
+  readonly offset: number;
+  /** How many numbers it has. */
+  readonly channels: number;
+  /** Samples that it is made of: at most 64, and at most those of the film. */
+  readonly samples: number;
+}
 
 /** See {@link PathTracerOptions.sampler}. */
 export type Sampler = 'blue-noise' | 'sobol' | 'independent';
@@ -280,14 +332,14 @@ export interface MemoryReport {
   readonly perPath: number;
   /** Bytes for each stored triangle; instances share theirs. */
   readonly perTriangle: number;
-  /** Bytes for each pixel of the film, with the layers read so far. */
+  /** Bytes for each pixel of the film, with the AOVs that are requested. */
   readonly perPixel: number;
   /** Bytes for each texel of the images in use, mip levels included; 0 without textures. */
   readonly perTexel: number;
 }
 
 /** What {@link PathTracer.read} can give. */
-export type FilmLayer = 'beauty' | 'variance' | 'albedo' | 'normal' | 'position' | 'depth' | 'objectId' | 'materialId';
+export type FilmLayer = 'beauty' | 'variance' | AovName;
 
 /** The surface under a pixel, see {@link PathTracer.pick}. */
 export interface PickResult {

@@ -13,6 +13,8 @@ import { readBuffer } from './storage/read-buffer';
 import type { Integrator } from './integrator/integrator';
 import { checkFirstSample, checkRenderScale, checkSize, resolveOptions, type TracerSettings } from './option-checks';
 import type {
+  AovName,
+  FilmAov,
   FilmLayer,
   LightGroup,
   PathTracerOptions,
@@ -143,6 +145,56 @@ export class PathTracer extends TracerEdits {
     return this.#session.film.beauty;
   }
 
+  /** The first-hit AOVs that are requested, see `PathTracerOptions.aovs`. */
+  get aovs(): readonly AovName[] {
+    return this.#options.aovs;
+  }
+
+  /**
+   * A first-hit AOV on the GPU, for kernels that come after: guides of a denoiser, compositing. It grows with the film's
+   * first 64 samples and begins again when the film does.
+   *
+   * @throws {RenderError} `renderer/aov` if it is not requested, or its kernels are not there yet.
+   * @example
+   * const tracer = await PathTracer.create(device, scene, { width, height, aovs: ['albedo', 'normal'] });
+   * for await (const progress of tracer.render({ samples: 16 })) void progress;
+   * const { buffer, stride, offset } = tracer.aov('albedo'); // albedo[i] = buffer[stride * pixel + offset + i]
+   */
+  aov(name: AovName): FilmAov {
+    this.#check();
+    return this.#session.aovs.aov(name);
+  }
+
+  /**
+   * Requests other first-hit AOVs than before. The film goes on: kernels that record them are compiled, and the samples
+   * that it has get their AOVs by tracing their paths again as far as these need.
+   *
+   * @param aovs All that are requested from now on; none of them costs nothing.
+   * @returns When {@link aov} has them, for as many samples as the film has, at most 64, at least one.
+   * @throws {RenderError} `renderer/option` for other names.
+   * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
+   */
+  async setAovs(aovs: readonly AovName[]): Promise<void> {
+    await this.#edits.run(() => {
+      this.#check();
+      resolveOptions({ aovs });
+      const before = this.#options.aovs;
+      const request = (names: readonly AovName[]) => {
+        this.#options = { ...this.#options, aovs: names };
+      };
+      return {
+        effect: 'keeps',
+        isStale: () => false,
+        apply: () => {
+          request([...aovs]);
+          return false;
+        },
+        undo: () => request(before),
+      };
+    });
+    if (!this.#destroyed) await this.#session.aovs.fill();
+  }
+
   get statistics(): RenderStatistics {
     const { geometry } = this.#editor;
     const triangles = geometry.triangleCount;
@@ -184,11 +236,15 @@ export class PathTracer extends TracerEdits {
    *   samples (`Infinity` before there are 32 samples), and the pixel's number of samples. Exact on average for
    *   independent samples; with Sobol points it errs on the high side. It is that of the light groups as they were set
    *   when the film was begun.
-   * - `albedo`: Float32Array, RGBA: directional albedo at the first surface, coverage.
-   * - `normal`: Float32Array, xyz0: mean shading normal in the world, towards the camera.
-   * - `position`: Float32Array, stride 4: mean position of the first surface in the world, and coverage.
-   * - `depth`: Float32Array, stride 1: metres along the ray; 0 where there is no surface.
-   * - `objectId`, `materialId`: Uint32Array, stride 1: scene indices at the pixel's centre; 0xffffffff for none.
+   * - `albedo`: Float32Array, RGBA: albedo and coverage.
+   * - `normal`: Float32Array, stride 4: normal and 0.
+   * - `position`: Float32Array, stride 4: position and coverage.
+   * - `coverage`, `depth`, `virtualDepth`: Float32Array, stride 1.
+   * - `objectId`, `materialId`: Uint32Array, stride 1.
+   *
+   * The layers but the first two are first-hit AOVs, see {@link AovName}. One that is not requested is requested here,
+   * as {@link setAovs} does, and stays so: request what will be read with `PathTracerOptions.aovs`, and kernels are
+   * compiled once.
    *
    * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`, `renderer/gpu-error`
    */
@@ -197,6 +253,8 @@ export class PathTracer extends TracerEdits {
   async read(layer: FilmLayer): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>>;
   async read(layer: FilmLayer): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
     this.#check();
+    if (layer !== 'beauty' && layer !== 'variance' && !this.aovs.includes(layer))
+      await this.setAovs([...this.aovs, layer]);
     return this.#session.read(layer);
   }
 

@@ -6,6 +6,7 @@ import { viewFlags } from './camera/view';
 import { withErrorScopes } from './device/error-scopes';
 import { environmentSteps, type EnvironmentData } from './environment/environment';
 import { RenderError } from './errors';
+import { aovBuffers, aovFlags } from './film/aovs';
 import { Film } from './film/film';
 import { prepareGeometry, type Geometry } from './geometry/geometry';
 import { isShown } from './geometry/placement';
@@ -65,7 +66,15 @@ export interface PreparationInput {
 
 /** What decides the kernels' text: the scene's features, the camera and the options. */
 export function kernelFeatures(features: KernelFeatures, camera: Camera, options: TracerSettings): KernelFeatures {
-  return { ...features, flags: { ...features.flags, ...viewFlags(camera, options.filter), ...biasedFlags(options) } };
+  return {
+    ...features,
+    flags: {
+      ...features.flags,
+      ...viewFlags(camera, options.filter),
+      ...biasedFlags(options),
+      ...aovFlags(options.aovs),
+    },
+  };
 }
 
 const stage = stageOf<Products>();
@@ -200,8 +209,13 @@ function transfer({ device, memory, cache, options, isLate }: PreparationInput) 
 /** The stages that make the film and the paths, and wait for the kernels. */
 function assembly({ device, memory, cache, options }: PreparationInput) {
   const { width, height, signal: outer, onProgress } = options;
+  const aovs = aovBuffers(aovFlags(options.aovs));
   const makeFilm = (planes: number) =>
-    withErrorScopes(device, `an image of ${width} × ${height} pixels`, () => new Film(memory, width, height, planes));
+    withErrorScopes(
+      device,
+      `an image of ${width} × ${height} pixels`,
+      () => new Film(memory, width, height, planes, aovs),
+    );
   return [
     stage({
       name: 'draft',

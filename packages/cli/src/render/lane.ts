@@ -10,7 +10,7 @@ import { CheckpointFile } from './checkpoint-file';
 import { Checkpoints } from './checkpoints';
 import { GpuGoneError, LaneGpu } from './gpu';
 import type { Job } from './queue';
-import { readImage } from './read-image';
+import { imageAovs, readImage } from './read-image';
 import { sceneKey, variantIndex, type PreparedScene, type SceneLoader } from './scene';
 import { shotLabel, type Shot } from './shots';
 import { cameraOf } from '../views';
@@ -398,7 +398,8 @@ export class Lane {
     const { device } = this.#gpu.opened as OpenedGpu;
     const { width, height } = options;
     const { samples: _samples, noise: _noise, ...settings } = options.settings;
-    const key = JSON.stringify([sceneKey(options), width, height, settings]);
+    const aovs = imageAovs(options.outputs);
+    const key = JSON.stringify([sceneKey(options), width, height, settings, aovs]);
     if (this.#tracer && key === this.#key) {
       await this.#tracer.setVariant(variant);
       await this.#tracer.setCamera(camera);
@@ -411,6 +412,7 @@ export class Lane {
       height,
       camera,
       ...settings,
+      aovs,
       signal,
       onProgress: ({ stage, done }) => progress.stage(LABELS[stage], done),
     });

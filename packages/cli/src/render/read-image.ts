@@ -1,7 +1,13 @@
-import type { Tracer } from '../backend';
+import type { PathTracerOptions, Tracer } from '../backend';
 import type { RenderCommandOptions } from '../options';
 import type { RenderedImage, ImageLayers } from '../output/image';
 import { version } from '../version';
+
+/** The first-hit AOVs that the outputs show, for the film to record with the image. */
+export const imageAovs = (outputs: RenderCommandOptions['outputs']): PathTracerOptions['aovs'] & {} =>
+  outputs.some(({ format }) => format === 'exr')
+    ? ['albedo', 'normal', 'position', 'depth', 'objectId', 'materialId']
+    : [];
 
 async function lightLayers(tracer: Tracer): Promise<ImageLayers['lights']> {
   const groups = tracer.lightGroups;

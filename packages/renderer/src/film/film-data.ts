@@ -1,3 +1,3 @@
 /** What is computed of a film's data on the CPU. Loaded when it is first needed, after the first image. */
 export { filmStateFault } from './film-check';
-export { groupLayer, unpackLayer, varianceLayer } from './layers';
+export { groupLayer, unpackAov, varianceLayer } from './layers';

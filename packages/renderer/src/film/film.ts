@@ -1,15 +1,13 @@
 import { TileGrid } from '../schedule/adaptive';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type GpuMemory } from '../storage/buffers';
 import { TILE } from '../schedule/tile';
-
-/** Made when a kernel first binds them: they belong to layers that few ask for. */
-const ON_DEMAND: ReadonlySet<string> = new Set(['feature_albedo', 'feature_normal', 'feature_ids', 'feature_position']);
+import { AOV_BUFFERS, type AovBuffer } from './aovs';
 
 /**
  * The buffers of one image. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not
  * yet complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance;
  * `beauty`; the pixel's number in `film_pixels`; in a film that begins in the middle of a chunk, that chunk's samples in
- * `film_head`, which `film_total` contains too. The first-hit features come when they are asked for.
+ * `film_head`, which `film_total` contains too; the AOVs that are requested.
  */
 export class Film {
   /** Pixels that there is memory for. */
@@ -19,10 +17,14 @@ export class Film {
   readonly planes: number;
   readonly #memory: GpuMemory;
   readonly #buffers = new Map<string, GPUBuffer>();
+  /** Bytes for each pixel; `film_noise` has tiles. */
+  readonly #perPixel = new WeakMap<GPUBuffer, number>();
   #scale = 1;
+  #pixels: Uint32Array<ArrayBuffer> | undefined;
   #whole = false;
 
-  constructor(memory: GpuMemory, width: number, height: number, planes: number) {
+  /** @param aovs Buffers of AOVs, see {@link keepAovs}. */
+  constructor(memory: GpuMemory, width: number, height: number, planes: number, aovs: readonly AovBuffer[] = []) {
     this.#memory = memory;
     this.fullWidth = width;
     this.fullHeight = height;
@@ -32,7 +34,19 @@ export class Film {
     this.#make('film_moment', 16);
     this.#make('beauty', 16);
     this.#make('film_pixels', 4);
+    this.keepAovs(aovs);
     this.setPixels(undefined);
+  }
+
+  /** Buffers of AOVs that there are. */
+  get aovs(): readonly AovBuffer[] {
+    return (Object.keys(AOV_BUFFERS) as AovBuffer[]).filter((name) => this.#buffers.has(name));
+  }
+
+  /** Makes the buffers of these AOVs that there are not yet, and frees those of others. */
+  keepAovs(aovs: readonly AovBuffer[]): void {
+    for (const name of aovs) if (!this.#buffers.has(name)) this.#make(name, AOV_BUFFERS[name]);
+    this.release(...this.aovs.filter((name) => !aovs.includes(name)));
   }
 
   /** Share of the full width and height that is rendered. */
@@ -63,10 +77,16 @@ export class Film {
   setPixels(list: Uint32Array<ArrayBuffer> | undefined): void {
     if (!list && this.#whole) return;
     this.#whole = !list;
+    this.#pixels = list;
     this.#memory.write(
       this.#buffers.get('film_pixels') as GPUBuffer,
       list ?? new TileGrid(this.width, this.height).allPixels(),
     );
+  }
+
+  /** The list that was set with {@link setPixels}. */
+  get listed(): Uint32Array<ArrayBuffer> | undefined {
+    return this.#pixels;
   }
 
   get pixels(): number {
@@ -82,15 +102,14 @@ export class Film {
   buffer(name: string): GPUBuffer | undefined {
     // A tile each 64 pixels, and those at the edges.
     if (name === 'film_noise' && !this.#buffers.has(name))
-      this.#make(name, (16 * Math.ceil(this.fullWidth / TILE) * Math.ceil(this.fullHeight / TILE)) / this.#fullPixels);
-    return this.#buffers.get(name) ?? (ON_DEMAND.has(name) ? this.#make(name, 16) : undefined);
+      this.#allocate(name, 16 * Math.ceil(this.fullWidth / TILE) * Math.ceil(this.fullHeight / TILE));
+    return this.#buffers.get(name);
   }
 
   /** Bytes of a buffer that the rendered pixels take: kernels see no more of it, nor do copies. */
   bytes(buffer: GPUBuffer): number {
-    const { size } = buffer;
-    const whole = this.#scale === 1 || buffer === this.#buffers.get('film_noise');
-    return whole ? size : (size / this.#fullPixels) * this.pixels;
+    const each = this.#scale === 1 ? undefined : this.#perPixel.get(buffer);
+    return each === undefined ? buffer.size : each * this.pixels;
   }
 
   /** Copies the totals, which are the sums of the first chunk at this time, to `film_head`. */
@@ -114,7 +133,7 @@ export class Film {
 
   /** Zeroes the sums. */
   clear(encoder: GPUCommandEncoder): void {
-    for (const name of ['film_block', 'film_total', 'film_moment', 'beauty']) {
+    for (const name of ['film_block', 'film_total', 'film_moment', 'beauty', ...this.aovs]) {
       const buffer = this.#buffers.get(name) as GPUBuffer;
       encoder.clearBuffer(buffer, 0, this.bytes(buffer));
     }
@@ -125,17 +144,15 @@ export class Film {
     this.#buffers.clear();
   }
 
-  get #fullPixels(): number {
-    return this.fullWidth * this.fullHeight;
+  #make(name: string, bytesPerPixel: number): GPUBuffer {
+    const buffer = this.#allocate(name, this.fullWidth * this.fullHeight * bytesPerPixel);
+    this.#perPixel.set(buffer, bytesPerPixel);
+    return buffer;
   }
 
-  #make(name: string, bytesPerPixel: number): GPUBuffer {
-    const label = name.startsWith('film') ? name.replace('_', ' ') : `film ${name.replace('feature_', '')}`;
-    const buffer = this.#memory.buffer(
-      label,
-      this.#fullPixels * bytesPerPixel,
-      GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST,
-    );
+  #allocate(name: string, bytes: number): GPUBuffer {
+    const label = name.startsWith('film') ? name.replace('_', ' ') : `film ${name.replace('aov_', '')}`;
+    const buffer = this.#memory.buffer(label, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST);
     this.#buffers.set(name, buffer);
     return buffer;
   }

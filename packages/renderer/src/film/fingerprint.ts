@@ -44,7 +44,7 @@ class Hash {
 /** The options that decide the value of a sample; the others decide when and where samples are taken. */
 const samplingOptions = (options: TracerSettings): unknown[] =>
   Object.entries(RENDER_OPTIONS).flatMap(([name, { effect }]) =>
-    effect === 'schedule' ? [] : [options[name as RenderOptionName] ?? null],
+    effect === 'schedule' || effect === 'layers' ? [] : [options[name as RenderOptionName] ?? null],
   );
 
 /**

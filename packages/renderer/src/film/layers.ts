@@ -1,32 +1,21 @@
 import { FILM_CHUNK } from '../schedule/sample-range';
-import type { FilmLayer } from '../options';
+import type { AovName } from '../options';
+import { AOV_PLACES } from './aovs';
 
-/** A layer that comes from camera rays alone. */
-export type FeatureLayer = Exclude<FilmLayer, 'beauty' | 'variance'>;
-
-/** One layer out of the features' sums over `count` samples. */
-export function unpackLayer(
-  layer: FeatureLayer,
-  sources: readonly ArrayBuffer[],
-  count: number,
+/** A layer out of copies of the AOV's buffer and, for positions, of that with the coverage. */
+export function unpackAov(
+  name: AovName,
+  copies: readonly ArrayBuffer[],
 ): Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer> {
-  const first = sources[0] as ArrayBuffer;
-  if (layer === 'objectId' || layer === 'materialId') {
-    const ids = new Uint32Array(first);
-    return Uint32Array.from(
-      { length: ids.length / 4 },
-      (_, i) => ids[4 * i + (layer === 'objectId' ? 0 : 1)] as number,
-    );
+  const { format, stride, offset, channels } = AOV_PLACES[name];
+  const source = new (format === 'uint32' ? Uint32Array : Float32Array)(copies[0] as ArrayBuffer);
+  if (channels === 1) {
+    const single = new (format === 'uint32' ? Uint32Array : Float32Array)(source.length / stride);
+    return single.map((_, i) => source[stride * i + offset] as number);
   }
-  const sums = new Float32Array(first);
-  if (layer === 'albedo') return sums.map((value) => value / count);
-  if (layer === 'normal') return sums.map((value, i) => (i % 4 === 3 ? 0 : value / count));
-  if (layer === 'position')
-    return sums.map((value, i) => (i % 4 === 3 ? value / count : value / Math.max(sums[i | 3] as number, 1)));
-  const coverage = new Float32Array(sources[1] as ArrayBuffer);
-  return Float32Array.from({ length: sums.length / 4 }, (_, i) =>
-    (coverage[4 * i + 3] as number) > 0 ? (sums[4 * i + 3] as number) / (coverage[4 * i + 3] as number) : 0,
-  );
+  // With the albedo lies the coverage, which positions have beside them too.
+  const last = name === 'normal' ? undefined : new Float32Array(copies.at(-1) as ArrayBuffer);
+  return Float32Array.from(source, (value, i) => (i % 4 === 3 ? (last?.[i] ?? 0) : value));
 }
 
 /** A weight for each light group. */

@@ -14,7 +14,7 @@ import type { ResourceProvider } from '../storage/scene-resources';
 import type { KernelSet } from './kernel-cache';
 import { CONNECT_CROSSINGS, WALK_STEPS } from './limits';
 import { BLOCK } from '../storage/blocks';
-import { batchStruct, frameStruct, shadowRecords } from '../storage/layout';
+import { aovBatchStruct, batchStruct, frameStruct, shadowRecords } from '../storage/layout';
 import { pathLayout } from '../path/path-layout';
 import { MAX_LIGHT_GROUPS } from '../storage/resources';
 import type { Kernel, KernelFeatures, KernelName } from './pipelines';
@@ -27,7 +27,7 @@ const QUEUE_WORDS = 8;
 /** One dispatch covers at most 65,535 workgroups of 64 threads. */
 export const MAX_THREADS = 65535 * 64;
 
-type OwnBuffer = 'frame' | 'batch' | 'light_groups' | 'paths' | 'queues' | 'shadows' | 'dispatch';
+type OwnBuffer = 'frame' | 'batch' | 'aov_batch' | 'light_groups' | 'paths' | 'queues' | 'shadows' | 'dispatch';
 
 /** How many paths may be kept on the GPU at once. Large GPUs are known by the size of their buffers. */
 export function pathLimit(device: GPUDevice, wanted: number | undefined, features: KernelFeatures): number {
@@ -40,6 +40,17 @@ export function pathLimit(device: GPUDevice, wanted: number | undefined, feature
   const standard = device.limits.maxBufferSize >= 2 ** 31 - 4 ? 1 << 22 : 1 << 20;
   return Math.max(64, Math.min(wanted ?? standard, most, MAX_THREADS));
 }
+
+/** Which samples of a batch record their AOVs, and whether they are traced for nothing else. */
+export interface AovBatch {
+  /** Number of the first sample that does. */
+  readonly begin: number;
+  /** Number of the first sample after those. */
+  readonly end: number;
+  readonly only: boolean;
+}
+
+const NO_AOVS: AovBatch = { begin: 0, end: 0, only: false };
 
 /** How long paths may become. */
 export interface DepthLimits {
@@ -68,6 +79,8 @@ export class Integrator {
   #growing = false;
   /** A number of paths that the GPU has refused memory for. */
   #refused = Infinity;
+  /** As it was written. */
+  #aovs: AovBatch | undefined;
   limits: DepthLimits;
   /** Number of the film's first sample. */
   firstSample = 0;
@@ -99,6 +112,7 @@ export class Integrator {
     this.#buffers = {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
+      aov_batch: memory.buffer('AOV batch', aovBatchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       paths: memory.buffer('paths', pathLayout(features).records.bytes(capacity), GPU_BUFFER_STORAGE),
       queues: memory.buffer(
@@ -198,6 +212,7 @@ export class Integrator {
   /** To be called when buffers or textures of the scene or the film were replaced. */
   rebind(film: Film = this.#film): void {
     this.#film = film;
+    this.#aovs = undefined;
     this.#groups.clear();
   }
 
@@ -253,11 +268,16 @@ export class Integrator {
     this.#replace(made);
   }
 
-  /** Traces the batch's paths, which there must be {@link room} for, and adds them to the film. */
-  submit(batch: Batch): void {
+  /**
+   * Traces the batch's paths, which there must be {@link room} for, and adds them to the film.
+   * @param aovs What to do about their AOVs, where the kernels record such.
+   */
+  submit(batch: Batch, aovs: AovBatch = NO_AOVS): void {
     this.#writeBatch(batch);
+    this.#writeAovs(aovs);
     const { kernels, features } = this.#kernels;
     const paths = batch.pixelCount * batch.sampleCount * this.pathsPerSample;
+    const recorded = features.flags.AOVS === true && batch.sampleOffset < aovs.end;
     this.#pass('glanz batch', (pass) => {
       const run = (name: KernelName, work: number | { readonly indirect: number }) =>
         this.#run(pass, name, kernels[name] as Kernel, work);
@@ -271,9 +291,11 @@ export class Integrator {
         run('shade', sized(0));
         if (step === steps) break;
         run('advance', 1);
-        if (features.flags.NEXT_EVENT) run('connect', sized(16));
+        if (features.flags.NEXT_EVENT && !aovs.only) run('connect', sized(16));
       }
-      run('resolve', Math.ceil(batch.pixelCount / 64));
+      if (!aovs.only) run('resolve', Math.ceil(batch.pixelCount / 64));
+      if (recorded) run('aov', Math.ceil(batch.pixelCount / 64));
+      if (recorded && features.flags.AOV_IDS) run('aov_ids', Math.ceil(batch.pixelCount / 64));
     });
   }
 
@@ -329,6 +351,16 @@ export class Integrator {
       first_sample: this.firstSample,
     });
     this.#memory.write(this.#buffers.batch, data);
+  }
+
+  #writeAovs(aovs: AovBatch): void {
+    const last = this.#aovs;
+    const same = aovs.begin === last?.begin && aovs.end === last.end && aovs.only === last.only;
+    if (!this.#kernels.features.flags.AOVS || same) return;
+    const data = aovBatchStruct.allocate();
+    aovBatchStruct.write(data, 0, { begin: aovs.begin, end: aovs.end, only: aovs.only ? 1 : 0 });
+    this.#memory.write(this.#buffers.aov_batch, data);
+    this.#aovs = aovs;
   }
 
   #group(name: KernelName, kernel: Kernel): GPUBindGroup {

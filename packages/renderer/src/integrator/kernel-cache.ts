@@ -7,7 +7,7 @@ export interface KernelSet {
 }
 
 /** Compiled when they are first asked for. */
-const ON_DEMAND: ReadonlySet<KernelName> = new Set(['features', 'position', 'relight', 'noise', 'first']);
+const ON_DEMAND: ReadonlySet<KernelName> = new Set(['relight', 'noise', 'first']);
 
 /** Told how far kernels are, 0..1, and which of them has come last. */
 type Hear = (done: number, name?: KernelName, kernel?: Kernel) => void;
@@ -67,7 +67,11 @@ export class KernelCache {
 
   #compile(features: KernelFeatures): Compilation {
     const names = KERNELS.filter(
-      (name) => !ON_DEMAND.has(name) && (name !== 'connect' || features.flags.NEXT_EVENT === true),
+      (name) =>
+        !ON_DEMAND.has(name) &&
+        (name !== 'connect' || features.flags.NEXT_EVENT === true) &&
+        (name !== 'aov' || features.flags.AOVS === true) &&
+        (name !== 'aov_ids' || features.flags.AOV_IDS === true),
     );
     const heard = new Set<Hear>();
     const ready = new Map<KernelName, Kernel>();

@@ -5,14 +5,15 @@ import { DeviceError } from '../errors';
 import { inErrorScopes, lossOr } from '../device/error-scopes';
 import type { TexturedParameterInfo } from '../materials/materials';
 import advance from './advance.wesl';
+import aov from '../film/aov.wesl';
+import aovIds from '../film/aov_ids.wesl';
 import begin from './begin.wesl';
 import connect from './connect.wesl';
+import { aovBuffers } from '../film/aovs';
 import { pathLayout } from '../path/path-layout';
 import noise from '../film/noise.wesl';
 import relight from '../film/relight.wesl';
-import position from '../film/position.wesl';
 import energyHost from '../materials/energy.wesl';
-import layers from '../film/features.wesl';
 import firstLight from './first_light.wesl';
 import generate from './generate.wesl';
 import intersect from './intersect.wesl';
@@ -66,8 +67,8 @@ export const KERNELS = [
   'advance',
   'connect',
   'resolve',
-  'features',
-  'position',
+  'aov',
+  'aov_ids',
   'relight',
   'noise',
   'first',
@@ -111,6 +112,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   const energy: ResourceName[] = ['energy_dielectric', 'energy_conductor', 'energy_sampler'];
   // What subsurface scatters depends on how its surface reflects.
   const walking: ResourceName[] = flags.OPENPBR_SUBSURFACE ? energy : [];
+  const recording: ResourceName[] = flags.AOVS ? ['aov_batch'] : [];
   const { module: path, planes } = pathLayout(features);
   const filmBuffers: ResourceName[] = [
     'film_block',
@@ -125,7 +127,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       return {
         root: generate,
         host: [path],
-        resources: ['frame', 'batch', 'paths', 'queues', 'film_pixels'],
+        resources: ['frame', 'batch', 'paths', 'queues', 'film_pixels', ...recording],
         textures: false,
       };
     case 'begin':
@@ -197,6 +199,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           'environment',
           'environment_table',
           ...energy,
+          ...recording,
         ],
         textures: true,
       };
@@ -207,28 +210,31 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers],
         textures: false,
       };
+    case 'aov':
+      return {
+        root: aov,
+        host: [path],
+        resources: [
+          ...(flags.AOV_POSITION ? (['frame'] as const) : []),
+          'batch',
+          'paths',
+          'film_pixels',
+          ...recording,
+          ...aovBuffers(flags).filter((buffer) => buffer !== 'aov_ids'),
+        ],
+        textures: false,
+      };
+    case 'aov_ids':
+      return {
+        root: aovIds,
+        host: [path],
+        resources: ['frame', 'batch', 'paths', 'film_pixels', 'instances', ...recording, 'aov_ids'],
+        textures: false,
+      };
     case 'relight':
       return { root: relight, host: [planes], resources: ['batch', ...filmBuffers], textures: false };
     case 'noise':
       return { root: noise, host: [planes], resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
-    case 'position':
-      return {
-        root: position,
-        host: query(bvhClosestHit),
-        resources: [
-          ...new Set<ResourceName>([
-            'frame',
-            'batch',
-            ...filter,
-            ...culling,
-            'nodes',
-            'triangles',
-            'instances',
-            'feature_position',
-          ]),
-        ],
-        textures: flags.OPACITY === true,
-      };
     case 'first': {
       const firstFlags = { ...flags, OPACITY: false, CATCHER: false };
       // Neither opacity nor catchers: they would bring half of the renderer.
@@ -240,13 +246,6 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         flags: firstFlags,
       };
     }
-    case 'features':
-      return {
-        root: layers,
-        host: [...query(bvhClosestHit), ...surfaces],
-        resources: ['frame', 'batch', 'nodes', ...scene, 'feature_albedo', 'feature_normal', 'feature_ids', ...energy],
-        textures: true,
-      };
   }
 }
 

@@ -9,7 +9,7 @@ export interface PathShape {
   readonly planes: number;
   /**
    * With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for,
-   * with `MEDIA` the interiors they are in.
+   * with `MEDIA` the interiors they are in, with `AOVS` what `path_aov.wesl` says.
    */
   readonly flags: Readonly<Record<string, boolean>>;
 }
@@ -61,9 +61,18 @@ const INTERIOR = {
   wavelength: 'f32',
 } as const;
 
+const AOVS = {
+  aov_state: 'u32',
+  aov_color: 'u32',
+  aov_normal: 'u32',
+  aov_depth: 'f32',
+  aov_reach: 'f32',
+  aov_instance: 'u32',
+} as const;
+
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
 export function pathLayout({ planes, flags }: PathShape): PathLayout {
-  const key = `${planes} ${flags.PATH_STATE === true} ${flags.CATCHER === true} ${flags.MEDIA === true}`;
+  const key = `${planes} ${flags.PATH_STATE === true} ${flags.CATCHER === true} ${flags.MEDIA === true} ${flags.AOVS === true}`;
   let layout = layouts.get(key);
   if (!layout) {
     const fields = {
@@ -76,6 +85,7 @@ export function pathLayout({ planes, flags }: PathShape): PathLayout {
       ...(flags.PATH_STATE ? STATE : {}),
       ...(flags.CATCHER ? { role: 'u32' } : {}),
       ...(flags.MEDIA ? INTERIOR : {}),
+      ...(flags.AOVS ? AOVS : {}),
     });
     const film = filmPlanes(planes, flags.CATCHER === true);
     const module = wgslModule('renderer/path-of-scene', '', [records.module, gated('PLANES', film), path]);

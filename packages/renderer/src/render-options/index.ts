@@ -5,6 +5,7 @@ export {
   type EnumOption,
   type FilterOption,
   type LimitsOption,
+  type NamesOption,
   type NumberOption,
   type RenderOption,
   type RenderOptionEffect,

@@ -4,11 +4,12 @@ const numberOf = (text: string | undefined) => (text === undefined || text.trim(
 
 /**
  * The value of an option that a text states, not yet validated (see {@link takesOption}): a number, a name, `true` or
- * `false`, `gaussian:2` for a filter with its radius, `diffuse=2,specular=4` for limits.
+ * `false`, `gaussian:2` for a filter with its radius, `diffuse=2,specular=4` for limits, `albedo,normal` for names.
  */
 export function parseOption(name: RenderOptionName, text: string): unknown {
   const { type } = RENDER_OPTIONS[name];
   if (type === 'enum') return text;
+  if (type === 'names') return text.split(',').map((part) => part.trim());
   if (type === 'boolean') return text === 'true' || (text === 'false' ? false : text);
   if (type === 'limits')
     return Object.fromEntries(

@@ -1,13 +1,14 @@
-import type { BounceLimits, PathTracerOptions, PixelFilter, RenderOptions } from '../options';
+import type { AovName, BounceLimits, PathTracerOptions, PixelFilter, RenderOptions } from '../options';
 
 /**
  * What a change of an option costs.
  * - `uniform`: a number in the frame uniforms. The film restarts; no kernel is compiled.
  * - `kernel`: it decides which code the kernels contain. Changed kernels are compiled, and the film restarts.
  * - `film`: it decides how large the film is. The film is allocated again, and changed kernels are compiled.
+ * - `layers`: it decides what the film keeps besides the image. Changed kernels are compiled; the film keeps its samples.
  * - `schedule`: it decides when samples are taken and how many, not their values. The film keeps its samples.
  */
-export type RenderOptionEffect = 'uniform' | 'kernel' | 'film' | 'schedule';
+export type RenderOptionEffect = 'uniform' | 'kernel' | 'film' | 'layers' | 'schedule';
 
 interface Row {
   readonly effect: RenderOptionEffect;
@@ -58,8 +59,15 @@ export interface LimitsOption extends Row {
   readonly default?: undefined;
 }
 
+/** A list of names, each at most once. */
+export interface NamesOption extends Row {
+  readonly type: 'names';
+  readonly values: readonly AovName[];
+  readonly default: readonly AovName[];
+}
+
 /** A row of {@link RENDER_OPTIONS}. */
-export type RenderOption = NumberOption | BooleanOption | EnumOption | FilterOption | LimitsOption;
+export type RenderOption = NumberOption | BooleanOption | EnumOption | FilterOption | LimitsOption | NamesOption;
 
 type RowOf<T> = [T] extends [number]
   ? NumberOption
@@ -69,7 +77,9 @@ type RowOf<T> = [T] extends [number]
       ? EnumOption<T>
       : [T] extends [PixelFilter]
         ? FilterOption
-        : LimitsOption;
+        : [T] extends [readonly AovName[]]
+          ? NamesOption
+          : LimitsOption;
 
 /** Members of the options' interfaces that are no settings: sizes, objects and callbacks. */
 type NoSetting = 'width' | 'height' | 'camera' | 'hierarchies' | 'signal' | 'onProgress' | 'onFirstLight';
@@ -103,6 +113,12 @@ export const RENDER_OPTIONS = {
     effect: 'kernel',
   },
   lightGroups: { type: 'enum', values: ['off', 'named', 'each'], default: 'named', effect: 'film' },
+  aovs: {
+    type: 'names',
+    values: ['albedo', 'normal', 'virtualDepth', 'coverage', 'depth', 'position', 'objectId', 'materialId'],
+    default: [],
+    effect: 'layers',
+  },
   backFaceCulling: { type: 'enum', values: ['off', 'camera', 'all'], default: 'off', effect: 'kernel' },
   maxBounces: {
     type: 'limits',

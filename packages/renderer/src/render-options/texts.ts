@@ -46,6 +46,7 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
   lightGroups: {
     doc: 'Keeps groups of lights apart, as layers of the film: those that the scene names, each light, or none.',
   },
+  aovs: { doc: 'First-hit layers that stay on the GPU, such as the guides of a denoiser: means over 64 samples.' },
   backFaceCulling: {
     doc: 'Leaves out faces that show the camera their back and are not double-sided: for the camera only, while light still meets them, or for all rays.',
   },

@@ -34,6 +34,8 @@ export function takesOption(name: RenderOptionName, value: unknown): boolean {
     const { type: filter = value, radius = 1 } = Object(value);
     return typeof filter === 'string' && Object.hasOwn(radii, filter) && isNumber(radius, { ...row, type: 'number' });
   }
+  if (type === 'names')
+    return Array.isArray(value) && value.every((each, i) => values!.includes(each) && value.indexOf(each) === i);
   return values ? values.includes(value) : isNumber(value, row);
 }
 
@@ -43,6 +45,7 @@ export function optionValues(name: RenderOptionName): string {
   const number = range && `number ${above ? `above ${range[0]} and at most` : `from ${range[0]} to`} ${range[1]}`;
   if (radii) return `one of ${Object.keys(radii).join(', ')}, with a radius: a ${number}`;
   if (type === 'limits') return `a whole ${number} for each of ${values!.join(', ')}`;
+  if (type === 'names') return `a list of names, each once, out of ${values!.join(', ')}`;
   if (values) return `one of ${values.join(', ')}`;
   return number ? `a ${type === 'integer' ? 'whole ' : ''}${number}` : 'true or false';
 }

@@ -12,6 +12,7 @@ import {
   type Scene,
 } from '@glanz/scene';
 import { RenderError } from '../errors';
+import type { EditEffect } from '../film/edit-effect';
 import type { GpuScene } from './gpu-scene';
 import { checkParameters } from '../materials/check-parameters';
 import { environmentSteps, hasSameTexels, type EnvironmentData } from '../environment/environment';
@@ -48,6 +49,8 @@ export interface SceneChange {
   readonly apply: () => boolean;
   /** Takes the scene back to what it was before. */
   readonly undo: () => void;
+  /** What it does to the film's samples; default `invalidates`. */
+  readonly effect?: EditEffect;
   /** Writes shapes to the GPU again that it has overwritten, once everything else has been taken back. */
   readonly rewrite?: () => void;
 }

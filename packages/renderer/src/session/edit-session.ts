@@ -1,3 +1,5 @@
+import { aovBuffers } from '../film/aovs';
+import type { EditEffect } from '../film/edit-effect';
 import { Film } from '../film/film';
 import type { FilmSession } from './film-session';
 import type { GpuMemory } from '../storage/buffers';
@@ -24,6 +26,7 @@ export interface EditHost {
 
 /** An edit that has been made, and can be taken back until it is settled. */
 interface Made {
+  readonly effect: EditEffect;
   readonly settle: () => void;
   readonly takeBack: () => void;
 }
@@ -91,8 +94,9 @@ export class EditSession {
       if (memory.destroyed) return;
     }
     if (edit.result) integrator.rebind();
-    restart();
-    const made: Made = { settle: edit.settle, takeBack };
+    const { effect = 'invalidates' } = change;
+    if (effect !== 'keeps') restart();
+    const made: Made = { effect, settle: edit.settle, takeBack };
     this.#made.push(made);
     const kernels = this.#bringKernels();
     kernels.catch(() => {});
@@ -104,7 +108,7 @@ export class EditSession {
         takeBack();
         this.#bringKernels().catch(() => {});
       } else gpuScene.rewrite();
-      restart();
+      if (effect !== 'keeps') restart();
       throw error;
     });
     await kernels;
@@ -115,11 +119,12 @@ export class EditSession {
     const { device, film, integrator, memory, restart } = this.#host;
     const number = ++this.#resizes;
     while (film.film.fullWidth !== width || film.film.fullHeight !== height) {
-      const { planes } = integrator.kernels.features;
+      const { planes, flags } = integrator.kernels.features;
+      const aovs = aovBuffers(flags);
       const { result: next, verified } = inErrorScopes(
         device,
         `an image of ${width} × ${height} pixels`,
-        () => new Film(memory, width, height, planes),
+        () => new Film(memory, width, height, planes, aovs),
       );
       await verified.catch((error: unknown) => {
         next.destroy();
@@ -127,7 +132,8 @@ export class EditSession {
       });
       if (memory.destroyed) return;
       // Kernels that keep another number of sums apart have come meanwhile.
-      if (number !== this.#resizes || planes !== integrator.kernels.features.planes) {
+      const now = integrator.kernels.features;
+      if (number !== this.#resizes || planes !== now.planes || aovs.join() !== aovBuffers(now.flags).join()) {
         next.destroy();
         if (number !== this.#resizes) return;
         continue;
@@ -157,15 +163,18 @@ export class EditSession {
       while (this.#verifying) await this.#verifying;
       if (memory.destroyed) return;
       if (request === this.#requests && (await this.#use(kernels, () => request === this.#requests))) {
+        const keeps = this.#keepsFilm;
         this.#settle();
-        restart();
+        if (keeps) this.#host.film.aovs.restart();
+        else restart();
         return;
       }
     } catch (error) {
       if (memory.destroyed) throw error;
       if (request === this.#requests) {
+        const keeps = this.#keepsFilm;
         for (const { takeBack } of this.#made.splice(0).reverse()) takeBack();
-        restart();
+        if (!keeps) restart();
         throw error;
       }
     }
@@ -176,7 +185,9 @@ export class EditSession {
   /** Puts kernels in place, with the buffers that they need. @returns Whether they are still wanted. */
   async #use(kernels: KernelSet, wanted: () => boolean): Promise<boolean> {
     const { device, film, integrator, memory } = this.#host;
-    const { fullWidth: width, fullHeight: height, planes } = film.film;
+    const before = film.film;
+    const { fullWidth: width, fullHeight: height, planes } = before;
+    const aovs = aovBuffers(kernels.features.flags);
     const made: (() => void)[] = [];
     const discard = () => made.forEach((free) => free());
     const { result, verified } = inErrorScopes(device, 'the paths and the film of this edit', () => {
@@ -184,8 +195,15 @@ export class EditSession {
         const paths = integrator.prepare(kernels);
         made.push(paths.discard);
         const next =
-          kernels.features.planes === planes ? undefined : new Film(memory, width, height, kernels.features.planes);
+          kernels.features.planes === planes
+            ? undefined
+            : new Film(memory, width, height, kernels.features.planes, aovs);
         if (next) made.push(() => next.destroy());
+        else {
+          const added = aovs.filter((name) => !before.aovs.includes(name));
+          made.push(() => before.release(...added));
+          before.keepAovs([...before.aovs, ...added]);
+        }
         return { paths, next };
       } catch (error) {
         discard();
@@ -193,8 +211,8 @@ export class EditSession {
       }
     });
     await this.#hold(verified, discard);
-    const resized = film.film.fullWidth !== width || film.film.fullHeight !== height;
-    if (memory.destroyed || !wanted() || (result.next && resized)) {
+    const resized = film.film !== before;
+    if (memory.destroyed || !wanted() || resized) {
       discard();
       return !memory.destroyed && wanted() ? this.#use(kernels, wanted) : false;
     }
@@ -203,7 +221,7 @@ export class EditSession {
       const { scale } = film.film;
       film.replace(result.next);
       if (scale !== 1) film.renderScale = scale;
-    }
+    } else before.keepAovs(aovs);
     return true;
   }
 
@@ -223,6 +241,11 @@ export class EditSession {
     } finally {
       if (this.#verifying === settled) this.#verifying = undefined;
     }
+  }
+
+  /** Whether all edits that wait for kernels leave the film as it is. */
+  get #keepsFilm(): boolean {
+    return this.#made.length > 0 && this.#made.every(({ effect }) => effect === 'keeps');
   }
 
   #settle(): void {

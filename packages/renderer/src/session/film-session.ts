@@ -4,14 +4,14 @@ import type { GpuMemory } from '../storage/buffers';
 import { inErrorScopes, withErrorScopes } from '../device/error-scopes';
 import type { KernelCache } from '../integrator/kernel-cache';
 import { readBuffer, readFloats } from '../storage/read-buffer';
+import { forBands } from '../integrator/bands';
 import type { Integrator } from '../integrator/integrator';
-import type { KernelName } from '../integrator/pipelines';
 import { FILM_CHUNK, headEnd, headSamples } from '../schedule/sample-range';
 import { renderGoal } from '../option-checks';
 import type { FilmLayer, LightGroup, RenderOptions, RenderProgress } from '../options';
+import type { Batch } from '../schedule/scheduler';
 import { Sampling, type SamplingState } from '../schedule/sampling';
-import { FeatureLayers } from './feature-layers';
-import { forBands, renderFeatures } from './feature-pass';
+import { AovRecorder } from './aov-recorder';
 import type { Film } from '../film/film';
 import { FILM_SUMS, type FilmState } from '../film/film-state';
 import { GroupSettings } from '../film/group-settings';
@@ -43,7 +43,7 @@ const COUNTERS = 32;
 /** The film of a tracer, and all that adds samples to it, changes how it is put together, or copies it. */
 export class FilmSession {
   readonly #host: FilmHost;
-  readonly #features: FeatureLayers;
+  readonly aovs: AovRecorder;
   readonly groups: GroupSettings;
   #film: Film;
   #sampling: Sampling | undefined;
@@ -66,9 +66,20 @@ export class FilmSession {
     this.#host = host;
     this.#film = film;
     this.groups = new GroupSettings(host.groupNames);
-    this.#features = new FeatureLayers({
-      render: (kernel, samples) => this.#renderFeatures(kernel, samples),
-      copy: (name) => readBuffer(host.device, this.#film.buffer(name) as GPUBuffer, this.#film.pixels * 16),
+    this.aovs = new AovRecorder({
+      device: host.device,
+      integrator: host.integrator,
+      film: () => this.#film,
+      first: () => this.#first,
+      samples: () => this.samples,
+      generation: () => this.#generation,
+      ready: async () => {
+        await this.#cleared;
+        await host.ready();
+        host.check();
+      },
+      writeFrame: () => this.#writeFrame(),
+      refused: () => this.#refused(),
     });
   }
 
@@ -96,7 +107,7 @@ export class FilmSession {
     integrator.firstSample = this.#first = first;
     this.#headCopied = false;
     this.#broken = false;
-    this.#features.clear();
+    this.aovs.restart();
     this.#frameDirty = true;
     this.#firstWeights = this.groups.weights;
     // Keeps what was learned about the GPU's speed.
@@ -115,12 +126,18 @@ export class FilmSession {
   #watch(verified: Promise<void>): void {
     const generation = this.#generation;
     verified.catch(() => {
+      this.#refused();
       if (this.#host.memory.destroyed) return;
-      // Bind groups that were refused must not be used again, nor uniforms relied on that were perhaps not written.
-      this.#host.integrator.rebind();
-      this.#frameDirty = true;
+      this.aovs.restart();
       if (generation === this.#generation) this.#broken = true;
     });
+  }
+
+  /** Bind groups that were refused must not be used again, nor uniforms relied on that were perhaps not written. */
+  #refused(): void {
+    if (this.#host.memory.destroyed) return;
+    this.#host.integrator.rebind();
+    this.#frameDirty = true;
   }
 
   /** Ends a running render. */
@@ -194,15 +211,7 @@ export class FilmSession {
       const { varianceLayer } = await import('../film/film-data');
       return varianceLayer(total as Float32Array, moment as Float32Array, weights, headSamples(this.#first), head);
     }
-    // An edit or a resize in between begins another image: what was rendered is not of one image then.
-    for (;;) {
-      const generation = this.#generation;
-      const [read] = await Promise.allSettled([this.#features.read(layer, this.samples)]);
-      this.#host.check();
-      if (generation !== this.#generation) continue;
-      if (read.status === 'rejected') throw read.reason;
-      return read.value;
-    }
+    return this.aovs.read(layer);
   }
 
   /** See `PathTracer.readLightGroup`. */
@@ -304,11 +313,11 @@ export class FilmSession {
       height: film.height,
       capacity: Math.floor(integrator.limit / integrator.pathsPerSample),
       queue: device.queue,
-      submit: (batch: Parameters<Integrator['submit']>[0]) => {
+      submit: (batch: Batch) => {
         const { verified } = inErrorScopes(device, 'a batch of paths', () => {
           this.#writeFrame();
           if (batch.sampleOffset >= headEnd(this.#first)) this.#copyHead();
-          integrator.submit(batch);
+          integrator.submit(batch, this.aovs.recording(batch));
         });
         this.#watch(verified);
         const sound = Promise.all([this.#cleared, verified]).then(() => {});
@@ -359,19 +368,6 @@ export class FilmSession {
       throw error;
     }
     return readFloats(device, film.buffer('film_noise') as GPUBuffer, 16 * columns * rows);
-  }
-
-  async #renderFeatures(name: KernelName, samples: number): Promise<void> {
-    const { cache, device, integrator, check, ready } = this.#host;
-    const kernel = await cache.kernel(name, integrator.kernels.features);
-    await ready();
-    check();
-    try {
-      await renderFeatures(device, integrator, name, kernel, this.#film, samples, () => this.#writeFrame());
-    } catch (error) {
-      this.#frameDirty = true;
-      throw error;
-    }
   }
 
   #writeFrame(): void {

@@ -1,5 +1,4 @@
 import type { Camera } from '@glanz/scene';
-import { forBands } from './feature-pass';
 import { packFrame } from './frame';
 import {
   GPU_BUFFER_COPY_DST,
@@ -11,6 +10,7 @@ import {
 import { inErrorScopes } from '../device/error-scopes';
 import type { GpuScene } from '../scene/gpu-scene';
 import type { KernelCache } from '../integrator/kernel-cache';
+import { forBands } from '../integrator/bands';
 import { batchStruct } from '../storage/layout';
 import type { Kernel, KernelFeatures } from '../integrator/pipelines';
 import type { TracerSettings } from '../option-checks';

@@ -61,6 +61,16 @@ export const batchStruct = struct('Batch', {
   first_sample: 'u32',
 });
 
+/** Which of a batch's samples record AOVs. */
+export const aovBatchStruct = struct('AovBatch', {
+  /** Number of the first sample that does. */
+  begin: 'u32',
+  /** Number of the first sample after those. */
+  end: 'u32',
+  /** Whether paths are traced for their AOVs alone, and end where these are known. */
+  only: 'u32',
+});
+
 const SHADOW = {
   origin: 'vec3f',
   distance: 'f32',
@@ -214,6 +224,7 @@ export const BACKGROUND_TRANSPARENT = 2;
 // The modules of structs, by the names that shaders import.
 export const Frame = frameStruct.module;
 export const Batch = batchStruct.module;
+export const AovBatch = aovBatchStruct.module;
 export const Instance = instanceStruct.module;
 export const Material = materialStruct.module;
 export const Light = lightStruct.module;

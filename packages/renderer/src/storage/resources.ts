@@ -1,6 +1,6 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { GPU_STAGE_COMPUTE } from './buffers';
-import { Batch, BvhNode, Frame, Instance, Light, Material, shadowRecords } from './layout';
+import { AovBatch, Batch, BvhNode, Frame, Instance, Light, Material, shadowRecords } from './layout';
 import queues from './queues.wesl';
 
 /** Light groups that an image may have. */
@@ -48,10 +48,11 @@ const RESOURCES = {
   film_pixels: { type: 'array<u32>', space: 'read' },
   light_groups: { type: `array<vec4f, ${2 * MAX_LIGHT_GROUPS}>`, space: 'uniform' },
   beauty: { type: 'array<vec4f>', space: 'read_write' },
-  feature_albedo: { type: 'array<vec4f>', space: 'read_write' },
-  feature_normal: { type: 'array<vec4f>', space: 'read_write' },
-  feature_position: { type: 'array<vec4f>', space: 'read_write' },
-  feature_ids: { type: 'array<vec4u>', space: 'read_write' },
+  aov_batch: { type: 'AovBatch', space: 'uniform', deps: [AovBatch] },
+  aov_albedo: { type: 'array<vec4f>', space: 'read_write' },
+  aov_normal: { type: 'array<vec4f>', space: 'read_write' },
+  aov_position: { type: 'array<vec4f>', space: 'read_write' },
+  aov_ids: { type: 'array<vec4u>', space: 'read_write' },
 } as const satisfies Record<string, Resource>;
 
 export type ResourceName = keyof typeof RESOURCES;

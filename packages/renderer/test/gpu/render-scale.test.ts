@@ -49,6 +49,13 @@ describe('setRenderScale', () => {
     tracer.destroy();
   });
 
+  it('takes images whose pixels are no multiple of four', async () => {
+    const tracer = await PathTracer.create(device, scene(), { ...options, width: 41, height: 23 });
+    tracer.setRenderScale(0.5);
+    expect(await layers(tracer)).toEqual(await made({ width: 21, height: 12 }));
+    tracer.destroy();
+  });
+
   it('creates no buffer and no texture, also with samples for a noise target', async () => {
     const tracer = await PathTracer.create(device, scene(), options);
     for await (const _ of tracer.render({ samples: 64, noise: 1e-6 }));

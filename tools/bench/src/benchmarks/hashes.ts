@@ -37,6 +37,8 @@ const LAYER_CHANNELS = {
   position: 3,
   depth: 1,
   objectId: 1,
+  coverage: 1,
+  virtualDepth: 1,
   materialId: 1,
 } as const;
 

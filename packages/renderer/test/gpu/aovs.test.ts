@@ -1,0 +1,214 @@
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import type { Scene } from '@glanz/scene';
+import { afterEach, beforeAll, expect, it } from 'vitest';
+import { PathTracer, type AovName, type PathTracerOptions } from '../../src/index';
+import { readAov } from '../aovs';
+import { addBox, addQuad, addSphere, camera, createScene, lambert } from '../scenes';
+
+let device: GPUDevice;
+beforeAll(async () => {
+  device = await testDevice();
+});
+afterEach(() => expectNoGpuErrors());
+
+const SIZE = 24;
+const options: PathTracerOptions = { width: SIZE, height: SIZE, camera, maxDepth: 4, pathsInFlight: 1 << 14 };
+const ALL: readonly AovName[] = ['albedo', 'coverage', 'normal', 'depth', 'virtualDepth', 'position'];
+
+async function render(scene: Scene, samples: number, more: Partial<PathTracerOptions> = {}): Promise<PathTracer> {
+  const tracer = await PathTracer.create(device, scene, { ...options, ...more });
+  for await (const _ of tracer.render({ samples, maxSubmitMs: 1000 }));
+  return tracer;
+}
+
+const BALL = [0.2, 0.1, 0.3] as const;
+const COLORS = [
+  [0.25, 0.5, 0.75],
+  [0.8, 0.2, 0.1],
+  [0.9, 0.9, 0.9],
+] as const;
+
+function diffuse(): Scene {
+  const scene = createScene();
+  addQuad(scene, 0.8, 0, lambert(...COLORS[0]));
+  addSphere(scene, 0.4, [...BALL], lambert(...COLORS[1]), 64);
+  addBox(scene, [-0.7, -0.7, 0], [-0.3, -0.3, 0.5], lambert(...COLORS[2]));
+  scene.environment = { type: 'constant', radiance: [1, 0.9, 0.8] };
+  return scene;
+}
+
+/** What the CPU's hierarchies find at 16 × 16 points of a pixel. */
+function picked(tracer: PathTracer, x: number, y: number) {
+  const side = 16;
+  const hits = Array.from({ length: side * side }, (_, k) =>
+    tracer.pick(x + ((k % side) + 0.5) / side, y + (Math.floor(k / side) + 0.5) / side),
+  );
+  const around = Array.from({ length: side }, (_, k) => -0.1 + (1.2 * k) / (side - 1)).flatMap((along) => [
+    tracer.pick(x + along, y - 0.1),
+    tracer.pick(x + along, y + 1.1),
+    tracer.pick(x - 0.1, y + along),
+    tracer.pick(x + 1.1, y + along),
+  ]);
+  const found = hits.filter((hit) => hit !== undefined);
+  const mean = (of: readonly number[], count: number) => of.reduce((sum, value) => sum + value, 0) / Math.max(1, count);
+  return {
+    // Slivers of another instance that these points miss touch the points around the pixel.
+    ids: new Set([...hits, ...around].map((hit) => hit?.instance)),
+    centre: tracer.pick(x + 0.5, y + 0.5),
+    coverage: found.length / hits.length,
+    albedo: [0, 1, 2].map((c) =>
+      mean(
+        found.map((hit) => COLORS[hit.material]?.[c] as number),
+        hits.length,
+      ),
+    ),
+    depth: mean(
+      found.map((hit) => hit.distance),
+      found.length,
+    ),
+    position: [0, 1, 2].map((c) =>
+      mean(
+        found.map((hit) => hit.position[c] as number),
+        found.length,
+      ),
+    ),
+  };
+}
+
+it('gives what rays on the CPU find, where nothing is smooth', async () => {
+  const tracer = await render(diffuse(), 64, { aovs: ALL, background: 'transparent' });
+  const found = {} as Record<AovName, Float32Array>;
+  for (const name of ALL) found[name] = await readAov(device, tracer, name);
+  const [objects, materials] = [await tracer.read('objectId'), await tracer.read('materialId')];
+  let [inside, edges] = [0, 0];
+  for (let y = 0; y < SIZE; y++) {
+    for (let x = 0; x < SIZE; x++) {
+      const i = y * SIZE + x;
+      const expected = picked(tracer, x, y);
+      const off = (name: AovName, channels: number, values: readonly number[]) =>
+        Math.max(...values.map((value, c) => Math.abs((found[name][channels * i + c] as number) - value)));
+      if (expected.ids.size > 1) {
+        edges++;
+        // 64 samples and 256 points see an edge alike up to the samples of a row of a grid of 8 × 8.
+        expect(off('coverage', 1, [expected.coverage])).toBeLessThanOrEqual(0.125);
+        expect(off('albedo', 3, expected.albedo)).toBeLessThanOrEqual(0.125);
+        continue;
+      }
+      expect([objects[i], materials[i]]).toEqual([
+        expected.centre?.instance ?? 0xffffffff,
+        expected.centre?.material ?? 0xffffffff,
+      ]);
+      expect(found.coverage[i]).toBe(expected.coverage);
+      // Albedos are kept with 16 bits, normals within 5e-5 radians.
+      expect(off('albedo', 3, expected.albedo)).toBeLessThan(2e-5);
+      expect(found.virtualDepth[i]).toBe(found.depth[i]);
+      if (expected.coverage === 0) {
+        for (const name of ['normal', 'position'] as const) expect(off(name, 3, [0, 0, 0])).toBe(0);
+        expect(found.depth[i]).toBe(0);
+        continue;
+      }
+      // Sides of the box and both halves of the ball meet in a pixel too: depths vary by up to 0.1 there.
+      expect(off('depth', 1, [expected.depth])).toBeLessThan(0.012);
+      expect(off('position', 3, expected.position)).toBeLessThan(0.012);
+      inside++;
+      if (expected.centre?.instance === 1 && Math.hypot(...expected.position.map((p, c) => p - BALL[c]!)) > 0.395) {
+        const normal = expected.position.map((p, c) => (p - BALL[c]!) / 0.4);
+        expect(off('normal', 3, normal)).toBeLessThan(0.03);
+      } else if (expected.centre?.instance === 0) {
+        expect(off('normal', 3, [0, 0, 1])).toBeLessThan(1e-4);
+      }
+    }
+  }
+  // Both kinds there are.
+  expect(inside).toBeGreaterThan(100);
+  expect(edges).toBeGreaterThan(20);
+  tracer.destroy();
+});
+
+it('takes ids from the sample nearest to the centre of a pixel', async () => {
+  const few = await render(diffuse(), 1, { aovs: ['objectId'], seed: 3 });
+  const many = await render(diffuse(), 64, { aovs: ['objectId'], seed: 3 });
+  const wrong = async (tracer: PathTracer) =>
+    (await tracer.read('objectId')).reduce((sum, id, i) => {
+      const centre = tracer.pick((i % SIZE) + 0.5, Math.floor(i / SIZE) + 0.5);
+      return sum + (id === (centre?.instance ?? 0xffffffff) ? 0 : 1);
+    }, 0);
+  const [first, last] = [await wrong(few), await wrong(many)];
+  // An edge of n pixels is crossed by a first sample in a quarter of them; the nearest of 64 is 0.09 pixels away.
+  expect(first).toBeGreaterThan(10);
+  expect(last).toBeLessThan(0.5 * first);
+  few.destroy();
+  many.destroy();
+});
+
+it('costs no sample of the image, and comes later for samples that were taken without', async () => {
+  const without = await render(diffuse(), 20);
+  const beauty = await without.read('beauty');
+  const first = await render(diffuse(), 20, { aovs: ALL });
+  expect(await first.read('beauty')).toEqual(beauty);
+  await without.setAovs(ALL);
+  expect(without.aov('albedo').samples).toBe(20);
+  expect(await without.read('beauty')).toEqual(beauty);
+  for (const name of ALL)
+    expect(await readAov(device, without, name), name).toEqual(await readAov(device, first, name));
+  for (const tracer of [without, first]) for await (const _ of tracer.render({ samples: 70 }));
+  expect(without.aov('albedo').samples).toBe(64);
+  for (const name of ALL)
+    expect(await readAov(device, without, name), name).toEqual(await readAov(device, first, name));
+  expect(await without.read('beauty')).toEqual(await first.read('beauty'));
+  without.destroy();
+  first.destroy();
+});
+
+it('reads layers of films that were made without: they are requested, and recorded for the samples that there are', async () => {
+  const tracer = await render(diffuse(), 20);
+  const beauty = await tracer.read('beauty');
+  expect(() => tracer.aov('normal')).toThrow(expect.objectContaining({ code: 'renderer/aov' }));
+  const [normal, depth, ids] = await Promise.all([
+    tracer.read('normal'),
+    tracer.read('depth'),
+    tracer.read('objectId'),
+  ]);
+  expect([...tracer.aovs].sort()).toEqual(['depth', 'normal', 'objectId']);
+  expect(await tracer.read('beauty')).toEqual(beauty);
+  const recorded = await render(diffuse(), 20, { aovs: ALL });
+  expect(normal).toEqual(await recorded.read('normal'));
+  expect(depth).toEqual(await recorded.read('depth'));
+  expect(ids).toEqual(await recorded.read('objectId'));
+  // An edit begins the film again, and its AOVs with it.
+  await tracer.setInstanceTransform(1, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -0.4, 0, 0, 1]);
+  expect(tracer.aov('normal').samples).toBe(0);
+  const moved = await tracer.read('objectId');
+  expect(moved).not.toEqual(ids);
+  expect(tracer.aov('normal').samples).toBe(1);
+  // Samples that come then are recorded from the second on.
+  for await (const _ of tracer.render({ samples: 20 }));
+  expect(tracer.aov('normal').samples).toBe(20);
+  tracer.destroy();
+  recorded.destroy();
+});
+
+it('resumes with a saved film', async () => {
+  const first = await render(diffuse(), 40, { aovs: ['albedo'] });
+  const state = await first.saveFilm();
+  const second = await render(diffuse(), 1, { aovs: ['albedo'] });
+  await second.restoreFilm(state);
+  expect(second.aov('albedo').samples).toBe(0);
+  for await (const _ of second.render({ samples: 50 }));
+  expect(second.aov('albedo').samples).toBe(0);
+  for await (const _ of first.render({ samples: 50 }));
+  expect(await second.read('albedo')).toEqual(await first.read('albedo'));
+  expect(second.aov('albedo').samples).toBe(50);
+  expect(await second.read('beauty')).toEqual(await first.read('beauty'));
+  first.destroy();
+  second.destroy();
+});
+
+it('records the same in bands and in several samples at once', async () => {
+  const large = await render(diffuse(), 10, { aovs: ALL, pathsInFlight: 1 << 16 });
+  const small = await render(diffuse(), 10, { aovs: ALL, pathsInFlight: 100 });
+  for (const name of ALL) expect(await readAov(device, small, name), name).toEqual(await readAov(device, large, name));
+  expect(await small.read('materialId')).toEqual(await large.read('materialId'));
+  large.destroy();
+  small.destroy();
+});
