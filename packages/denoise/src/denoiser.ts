@@ -1,10 +1,10 @@
 import { DenoiseError } from './error';
-import { bindImages, checkSize, type BoundImages } from './images';
+import { Chain, makeStages, type Stage } from './chain';
+import { checkSize } from './images';
 import { JobCursor, costOf } from './jobs';
 import { chooseShape, withGroups } from './kernels/choose-shape';
 import type { KernelShape } from './kernels/shapes';
 import { readNetwork, type Layer, type Network } from './network';
-import { NetworkKernels } from './network-kernels';
 import type {
   DenoiseImages,
   DenoiseOptions,
@@ -14,7 +14,6 @@ import type {
   DenoiserStorage,
 } from './options';
 import { Pace } from './pace';
-import { Prepared } from './prepared';
 
 const INPUTS: readonly DenoiserInput[] = ['hdr', 'ldr', 'srgb', 'albedo', 'normal'];
 
@@ -35,6 +34,38 @@ function checkOptions({ input = 'hdr', storage = 'f16', maxMemory = 1, maxSubmit
 }
 
 /**
+ * The networks that are to be evaluated, in order.
+ *
+ * @throws {DenoiseError} `denoise/weights`.
+ */
+function readNetworks(
+  weights: Uint8Array | ArrayBuffer,
+  { input = 'hdr', prefilter = {} }: DenoiserOptions,
+): (readonly [DenoiserInput, Network])[] {
+  const main = readNetwork(weights);
+  const networks: [DenoiserInput, Network][] = [];
+  const guides = { albedo: 6, normal: 9 } as const;
+  for (const kind of ['albedo', 'normal'] as const) {
+    const bytes = prefilter[kind];
+    if (!bytes) continue;
+    if (main.channels < guides[kind])
+      throw new DenoiseError(
+        'denoise/option',
+        `prefilter.${kind} is given, and the network takes ${main.channels} channels: it has no such guide.`,
+      );
+    networks.push([kind, readNetwork(bytes)]);
+  }
+  networks.push([input, main]);
+  for (const [kind, { channels }] of networks)
+    if ((kind === 'albedo' || kind === 'normal') && channels !== 3)
+      throw new DenoiseError(
+        'denoise/weights',
+        `A network that denoises ${kind} takes 3 channels; this one takes ${channels}. Use ${kind === 'albedo' ? 'rt_alb' : 'rt_nrm'}.`,
+      );
+  return networks;
+}
+
+/**
  * Denoises images in GPU buffers by a network of Open Image Denoise. One network; images of any size, one at a time, later
  * calls wait. Memory and shaders for a size are made at its first use and kept until another size comes.
  *
@@ -44,8 +75,7 @@ function checkOptions({ input = 'hdr', storage = 'f16', maxMemory = 1, maxSubmit
  */
 export class Denoiser {
   readonly #device: GPUDevice;
-  readonly #network: Network;
-  readonly #kernels: NetworkKernels;
+  readonly #stages: readonly Stage[];
   readonly #maxMemory: number;
   readonly #shapeOf: (layer: Layer, width: number, height: number) => KernelShape;
   readonly #pace: Pace;
@@ -55,18 +85,21 @@ export class Denoiser {
   readonly input: DenoiserInput;
   /** Precision between layers. */
   readonly storage: DenoiserStorage;
-  #prepared: Prepared | undefined;
+  #chain: Chain | undefined;
   #last: Promise<unknown> = Promise.resolve();
   #destroyed = false;
 
-  private constructor(device: GPUDevice, network: Network, options: DenoiserOptions) {
+  private constructor(
+    device: GPUDevice,
+    networks: readonly (readonly [DenoiserInput, Network])[],
+    options: DenoiserOptions,
+  ) {
     this.#device = device;
-    this.#network = network;
     this.input = options.input ?? 'hdr';
     this.storage = options.storage ?? 'f16';
     this.#maxMemory = options.maxMemory ?? 2 ** 30;
     this.#pace = new Pace(options.maxSubmitMs ?? 8);
-    this.#kernels = new NetworkKernels(device, network, this.input, this.storage);
+    this.#stages = makeStages(device, networks, this.storage);
     const software = isSoftware(device);
     this.#shapeOf = (layer, width, height) => {
       const family = options.shapeOf?.(layer, width, height);
@@ -95,27 +128,20 @@ export class Denoiser {
   ): Promise<Denoiser> {
     options.signal?.throwIfAborted();
     checkOptions(options);
-    const network = readNetwork(weights);
-    const guide = options.input === 'albedo' || options.input === 'normal';
-    if (guide && network.channels !== 3)
-      throw new DenoiseError(
-        'denoise/weights',
-        `A network that denoises ${options.input} takes 3 channels; this one takes ${network.channels}. Use rt_alb or rt_nrm.`,
-      );
-    const denoiser = new Denoiser(device, network, options);
-    await denoiser.#kernels.prelude();
+    const denoiser = new Denoiser(device, readNetworks(weights, options), options);
+    await Promise.all(denoiser.#stages.map(({ kernels }) => kernels.prelude()));
     options.signal?.throwIfAborted();
     return denoiser;
   }
 
   /** Channels that the network takes: 3 (the image), 6 (and albedo) or 9 (and normal). */
   get channels(): 3 | 6 | 9 {
-    return this.#network.channels;
+    return this.#stages.at(-1)!.network.channels;
   }
 
   /** Bytes on the GPU: weights, and what the last size needs. */
   get memoryBytes(): number {
-    return this.#kernels.bytes + (this.#prepared?.bytes ?? 0);
+    return this.#stages.reduce((sum, { kernels }) => sum + kernels.bytes, this.#chain?.bytes ?? 0);
   }
 
   /**
@@ -139,8 +165,8 @@ export class Denoiser {
   denoise(images: DenoiseImages, options: DenoiseOptions = {}): Promise<DenoiseResult> {
     return this.#inTurn(async () => {
       options.signal?.throwIfAborted();
-      const bound = bindImages(this.#network, this.input, images, this.#device.limits);
-      return this.#run(await this.#prepare(images.width, images.height), bound, options);
+      checkSize(images.width, images.height);
+      return this.#run(await this.#prepare(images.width, images.height), images, options);
     });
   }
 
@@ -153,24 +179,21 @@ export class Denoiser {
    */
   encode(encoder: GPUCommandEncoder, images: DenoiseImages): void {
     this.#expectAlive();
-    const bound = bindImages(this.#network, this.input, images, this.#device.limits);
-    const prepared = this.#prepared;
-    if (prepared?.width !== images.width || prepared.height !== images.height)
-      throw new DenoiseError(
-        'denoise/size',
-        `Nothing is prepared for ${images.width} × ${images.height} pixels: await prepare() with this size before encode().`,
-      );
+    checkSize(images.width, images.height);
+    if (!this.#chain)
+      throw new DenoiseError('denoise/size', 'Nothing is prepared: await prepare() with the size before encode().');
+    const jobs = this.#chain.jobs(images);
     const pass = encoder.beginComputePass({ label: 'denoise' });
-    new JobCursor(prepared.jobs(bound)).encode(pass, Infinity);
+    new JobCursor(jobs).encode(pass, Infinity);
     pass.end();
   }
 
   /** Frees everything on the GPU; work that is under way ends with `denoise/destroyed`. */
   destroy(): void {
     this.#destroyed = true;
-    this.#prepared?.destroy();
-    this.#prepared = undefined;
-    this.#kernels.destroy();
+    this.#chain?.destroy();
+    this.#chain = undefined;
+    for (const { kernels } of this.#stages) kernels.destroy();
   }
 
   #expectAlive(): void {
@@ -187,11 +210,11 @@ export class Denoiser {
     return result;
   }
 
-  async #prepare(width: number, height: number): Promise<Prepared> {
-    if (this.#prepared?.width === width && this.#prepared.height === height) return this.#prepared;
-    this.#prepared?.destroy();
-    this.#prepared = undefined;
-    const prepared = await Prepared.create(this.#device, this.#network, this.#kernels, {
+  async #prepare(width: number, height: number): Promise<Chain> {
+    if (this.#chain?.width === width && this.#chain.height === height) return this.#chain;
+    this.#chain?.destroy();
+    this.#chain = undefined;
+    const chain = await Chain.create(this.#device, this.#stages, {
       width,
       height,
       maxMemory: this.#maxMemory,
@@ -199,14 +222,14 @@ export class Denoiser {
       maxBinding: this.#device.limits.maxStorageBufferBindingSize,
       shapeOf: this.#shapeOf,
     });
-    if (this.#destroyed) prepared.destroy();
+    if (this.#destroyed) chain.destroy();
     this.#expectAlive();
-    this.#prepared = prepared;
-    return prepared;
+    this.#chain = chain;
+    return chain;
   }
 
-  async #run(prepared: Prepared, images: BoundImages, { signal, onProgress }: DenoiseOptions): Promise<DenoiseResult> {
-    const jobs = prepared.jobs(images);
+  async #run(chain: Chain, images: DenoiseImages, { signal, onProgress }: DenoiseOptions): Promise<DenoiseResult> {
+    const jobs = chain.jobs(images);
     const total = costOf(jobs);
     const cursor = new JobCursor(jobs);
     let submissions = 0;
@@ -237,6 +260,6 @@ export class Denoiser {
     }
     await before;
     this.#expectAlive();
-    return { tiles: prepared.tiling.tiles.length, submissions };
+    return { tiles: chain.tiles, submissions };
   }
 }

@@ -20,13 +20,23 @@ export class NetworkKernels {
   readonly #device: GPUDevice;
   readonly #network: Network;
   readonly #flags: Readonly<Record<string, boolean>>;
-  readonly #convolutions = new Map<string, Promise<Kernel>>();
+  readonly #input: DenoiserInput;
+  readonly #convolutions: Map<string, Promise<Kernel>>;
   readonly #weights = new Map<string, { readonly buffer: GPUBuffer; readonly packed: PackedWeights }>();
   #prelude: Promise<Prelude> | undefined;
 
-  constructor(device: GPUDevice, network: Network, input: DenoiserInput, storage: DenoiserStorage) {
+  /** @param convolutions Shaders that networks with the same storage share. */
+  constructor(
+    device: GPUDevice,
+    network: Network,
+    input: DenoiserInput,
+    storage: DenoiserStorage,
+    convolutions: Map<string, Promise<Kernel>>,
+  ) {
     this.#device = device;
     this.#network = network;
+    this.#input = input;
+    this.#convolutions = convolutions;
     this.#flags = {
       DENOISE_HALF: storage === 'f16',
       DENOISE_HDR: input === 'hdr',
@@ -74,7 +84,7 @@ export class NetworkKernels {
   convolution({ layer, shape, result }: LayerPlan): Promise<Kernel> {
     const up = layer.up !== undefined;
     const last = result === undefined;
-    const key = `${shapeName(shape)}${up ? ', upsampled' : ''}${layer.pool ? ', pooled' : ''}${last ? ', last' : ''}`;
+    const key = `${shapeName(shape)}${up ? ', upsampled' : ''}${layer.pool ? ', pooled' : ''}${last ? `, last, ${this.#input}` : ''}`;
     let kernel = this.#convolutions.get(key);
     if (!kernel) {
       const bindings: Record<number, BindingKind> = { 0: 'uniform', 1: 'dynamic', 2: 'read', 3: 'read', 5: 'write' };

@@ -19,6 +19,15 @@ export interface DenoiserOptions {
   /** What is denoised. Default `hdr`. */
   readonly input?: DenoiserInput;
   /**
+   * Weights of networks that remove the noise of guides before they guide (`rt_alb`, `rt_nrm`), for guides of few samples
+   * and for final images. The weights of the denoiser itself are then those for clean guides (`rt_hdr_calb_cnrm`). Guides
+   * that are not named are taken as they are. Default: none.
+   */
+  readonly prefilter?: {
+    readonly albedo?: Uint8Array | ArrayBuffer;
+    readonly normal?: Uint8Array | ArrayBuffer;
+  };
+  /**
    * Precision between layers. `f16`, the default, takes half of the memory and changes an image by 0.06 % on average;
    * no feature of the device is needed.
    */

@@ -1,37 +1,11 @@
-import { DenoiseError } from './error';
-import {
-  ALIGNMENT,
-  COPY_DST,
-  STORAGE,
-  UNIFORM,
-  bindGroup,
-  filledBuffer,
-  tryBuffers,
-  type Kernel,
-  type Window,
-} from './gpu';
+import { ALIGNMENT, COPY_DST, STORAGE, UNIFORM, bindGroup, filledBuffer, type Kernel, type Window } from './gpu';
 import type { BoundImages } from './images';
 import type { Job } from './jobs';
 import { layerStruct, tileStruct } from './kernels/layouts';
+import type { TiledPlan } from './memory';
 import type { NetworkKernels, Prelude } from './network-kernels';
-import type { Network } from './network';
-import {
-  ENCODE_ROWS,
-  planNetwork,
-  type LayerPlan,
-  type Plan,
-  type PlanOptions,
-  type Strip,
-  type TensorWindow,
-} from './plan';
-import { tileImage, type Tiling } from './tiles';
-
-/** What a size is prepared with. */
-export interface PrepareOptions extends PlanOptions {
-  readonly width: number;
-  readonly height: number;
-  readonly maxMemory: number;
-}
+import { ENCODE_ROWS, type LayerPlan, type Plan, type Strip, type TensorWindow } from './plan';
+import type { Tiling } from './tiles';
 
 /** Multiply-adds that take as long as encoding a pixel, roughly. */
 const ENCODE_COST = 200;
@@ -55,41 +29,7 @@ function rowNumbers(count: number): ArrayBuffer {
   return data.buffer;
 }
 
-/** Tiles of the image and the plan of one, with the memory for it. */
-async function allocate(device: GPUDevice, network: Network, options: PrepareOptions) {
-  const { width, height } = options;
-  const { maxBufferSize } = device.limits;
-  const sizeOf = (plan: Plan) => plan.slots.reduce((sum, bytes) => sum + bytes, 0);
-  for (let memory = options.maxMemory; ;) {
-    let plan: Plan | undefined;
-    let least = Infinity;
-    const tiling = tileImage(width, height, network.overlap, (w, h) => {
-      const planned = planNetwork(network, w, h, options);
-      if (planned) least = Math.min(least, sizeOf(planned));
-      plan = planned && planned.slots.every((bytes) => bytes <= maxBufferSize) ? planned : undefined;
-      return plan !== undefined && sizeOf(plan) <= memory;
-    });
-    if (!tiling || !plan)
-      throw least <= memory
-        ? new DenoiseError(
-            'denoise/limit',
-            `Not even a small tile of ${width} × ${height} pixels fits into the device's limits (maxBufferSize ${maxBufferSize}, maxStorageBufferBindingSize ${options.maxBinding}). Request higher ones.`,
-          )
-        : new DenoiseError(
-            'denoise/memory',
-            `The smallest tile of ${width} × ${height} pixels needs ${least} bytes on the GPU, and ${memory} ${memory < options.maxMemory ? 'are free' : 'are allowed by maxMemory'}. Free memory, or use storage 'f16' or a smaller network.`,
-          );
-    const buffers = await tryBuffers(
-      device,
-      plan.slots.map((size, i) => ({ label: `denoise values ${i}`, size, usage: STORAGE })),
-    );
-    if (buffers) return { tiling, plan, buffers };
-    // Less than what was refused, in smaller tiles.
-    memory = Math.floor(sizeOf(plan) / 2);
-  }
-}
-
-/** Everything on the GPU that depends on the size of the image. */
+/** A network, ready for images of a size. Values between layers are in buffers that others may use at other times. */
 export class Prepared {
   readonly #device: GPUDevice;
   readonly #kernels: NetworkKernels;
@@ -104,15 +44,14 @@ export class Prepared {
   readonly #layers: ReadyLayer[] = [];
   readonly plan: Plan;
   readonly tiling: Tiling;
-  readonly width: number;
-  readonly height: number;
 
   private constructor(
     device: GPUDevice,
     kernels: NetworkKernels,
     prelude: Prelude,
     size: { readonly width: number; readonly height: number },
-    { plan, tiling, buffers }: { plan: Plan; tiling: Tiling; buffers: readonly GPUBuffer[] },
+    { plan, tiling }: TiledPlan,
+    buffers: readonly GPUBuffer[],
   ) {
     this.#device = device;
     this.#kernels = kernels;
@@ -120,8 +59,6 @@ export class Prepared {
     this.plan = plan;
     this.tiling = tiling;
     this.#buffers = buffers;
-    this.width = size.width;
-    this.height = size.height;
     const rows = Math.max(...plan.layers.map(({ workgroups }) => workgroups[1]), Math.ceil(plan.height / ENCODE_ROWS));
     const own = (label: string, bytes: number, usage: number) => {
       const buffer = device.createBuffer({ label, size: bytes, usage });
@@ -138,19 +75,18 @@ export class Prepared {
     this.#scale = own('denoise scale', 16, STORAGE | COPY_DST);
   }
 
-  /** @throws {DenoiseError} `denoise/memory`, `denoise/limit`, `denoise/pipeline`. */
+  /** @throws {DenoiseError} `denoise/pipeline`. */
   static async create(
     device: GPUDevice,
-    network: Network,
     kernels: NetworkKernels,
-    options: PrepareOptions,
+    size: { readonly width: number; readonly height: number },
+    tiled: TiledPlan,
+    buffers: readonly GPUBuffer[],
   ): Promise<Prepared> {
-    const prelude = await kernels.prelude();
-    const memory = await allocate(device, network, options);
-    const prepared = new Prepared(device, kernels, prelude, options, memory);
+    const prepared = new Prepared(device, kernels, await kernels.prelude(), size, tiled, buffers);
     try {
-      await Promise.all(memory.plan.layers.map((layer) => kernels.convolution(layer)));
-      for (const layer of memory.plan.layers) prepared.#layers.push(await prepared.#ready(layer));
+      await Promise.all(tiled.plan.layers.map((layer) => kernels.convolution(layer)));
+      for (const layer of tiled.plan.layers) prepared.#layers.push(await prepared.#ready(layer));
     } catch (error) {
       prepared.destroy();
       throw error;
@@ -199,9 +135,9 @@ export class Prepared {
     return { plan, kernel, strips };
   }
 
-  /** Bytes on the GPU. */
+  /** Bytes on the GPU, without the values between layers. */
   get bytes(): number {
-    return [...this.#buffers, ...this.#own].reduce((sum, { size }) => sum + size, 0);
+    return this.#own.reduce((sum, { size }) => sum + size, 0);
   }
 
   /** Writes what of the uniforms depends on the images. */
@@ -303,6 +239,6 @@ export class Prepared {
   }
 
   destroy(): void {
-    for (const buffer of [...this.#buffers, ...this.#own]) buffer.destroy();
+    for (const buffer of this.#own) buffer.destroy();
   }
 }

@@ -1,6 +1,6 @@
 import { DenoiseError } from '../error';
 import { INPUT, readNetwork, type Network } from '../network';
-import type { DenoiserInput } from '../options';
+import type { DenoiserInput, DenoiserOptions } from '../options';
 import { automaticScale } from './exposure';
 import { concatenate, convolveChannel, pool, upsample, type Planes } from './layers';
 import { decodeMain, encodeAlbedo, encodeMain, encodeNormal } from './transfer';
@@ -29,17 +29,30 @@ export interface CpuImages {
 export interface CpuDenoiseOptions {
   /** What is denoised. Default `hdr`. */
   readonly input?: DenoiserInput;
+  /** As in {@link DenoiserOptions}. */
+  readonly prefilter?: DenoiserOptions['prefilter'];
   /** Ends the work; the promise rejects with the signal's reason. */
   readonly signal?: AbortSignal;
   /**
    * Called with what each layer computes, before pooling; first with `input`, the encoded images. For looking for
-   * differences between implementations.
+   * differences between implementations. Networks that clean guides are not among them.
    */
   readonly onLayer?: (name: string, planes: Planes) => void;
 }
 
 /** Milliseconds between two returns to the event loop. */
 const SLICE_MS = 12;
+
+/** The images with guides that networks of their own have cleaned. */
+async function withCleanGuides(images: CpuImages, { prefilter = {}, signal }: CpuDenoiseOptions): Promise<CpuImages> {
+  let cleaned = images;
+  for (const input of ['albedo', 'normal'] as const) {
+    const weights = prefilter[input];
+    if (weights)
+      cleaned = { ...cleaned, [input]: await denoiseOnCpu(weights, images, { input, ...(signal ? { signal } : {}) }) };
+  }
+  return cleaned;
+}
 
 /** The image that is denoised and the guides, as the network's input wants them. */
 function imagesOf(network: Network, input: DenoiserInput, images: CpuImages) {
@@ -91,7 +104,7 @@ export async function denoiseOnCpu(
 ): Promise<Float32Array<ArrayBuffer>> {
   const { input = 'hdr', signal, onLayer } = options;
   const network = readNetwork(weights);
-  const sources = imagesOf(network, input, images);
+  const sources = imagesOf(network, input, await withCleanGuides(images, options));
   const { width, height, pixelStride = 3 } = images;
   const main = sources[0]!;
   const scale = input === 'hdr' ? (images.scale ?? automaticScale(main, width, height, pixelStride)) : 1;
