@@ -31,7 +31,8 @@ function planTiles(network: Network, options: PrepareOptions, memory: number, ma
     return plan !== undefined && bytesOf(plan.slots) <= memory;
   });
   if (tiling && plan) return { tiling, plan };
-  throw least <= memory
+  // No plan at all: a row of workgroups does not fit into a binding.
+  throw least <= memory || least === Infinity
     ? new DenoiseError(
         'denoise/limit',
         `Not even a small tile of ${width} × ${height} pixels fits into the device's limits (maxBufferSize ${maxBufferSize}, maxStorageBufferBindingSize ${options.maxBinding}). Request higher ones.`,
@@ -70,6 +71,6 @@ export async function allocate(
     ]);
     if (buffers) return { parts, buffers: buffers.slice(0, slots.length), images: buffers.slice(slots.length) };
     // Less than what was refused, in smaller tiles.
-    memory = Math.floor(Math.max(...parts.map(({ plan }) => bytesOf(plan.slots))) / 2);
+    memory = Math.floor(0.75 * Math.max(...parts.map(({ plan }) => bytesOf(plan.slots))));
   }
 }
