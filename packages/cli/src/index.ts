@@ -10,5 +10,5 @@ export {
   type Tracer,
 } from './backend';
 export { CliError, EXIT, exitCodeOf } from './errors';
-export type { BatchResult, FailedImage, RenderResult, RenderTimings } from './commands/render';
+export type { BatchResult, FailedImage, RenderResult, RenderTimings } from './render/results';
 export type { WrittenFile } from './output/write';

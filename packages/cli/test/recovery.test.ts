@@ -308,7 +308,7 @@ describe('a batch', () => {
   it.each([
     ['gives no device any more', (name: string, before: number) => name === 'bad' && before > 0],
     ['loses every device', () => false],
-  ])('a lane whose GPU %s passes its image and its samples to the other', async (_what, refuses) => {
+  ])('a worker whose GPU %s passes its image and its samples to the other', async (_what, refuses) => {
     const cwd = folder();
     const { io, tick } = ticking(cwd);
     const { fake } = gpus({
@@ -401,7 +401,7 @@ describe('a batch', () => {
     }
   });
 
-  it('a fault of our own in one lane stops the others after their image: 70', async () => {
+  it('a fault of our own in one worker stops the others after their image: 70', async () => {
     const cwd = folder();
     const { fake } = gpus({
       onSample(sample, name) {

@@ -23,7 +23,7 @@ const BACK_OFF = [0, 300, 1000, 3000, 10_000];
 /** Milliseconds that the news of a loss may come after the error that it caused. */
 const LATE_NEWS = 100;
 
-/** What a {@link LaneGpu} works with. */
+/** What a {@link RecoverableGpu} works with. */
 export interface GpuContext {
   readonly io: CliIo;
   readonly backend: Backend;
@@ -39,7 +39,7 @@ export const GPU_ADVICE =
  * A GPU by name, with its device: opened when it is first needed, watched, and opened again after a loss.
  * Each device comes from a new adapter, since a loss makes the old one useless.
  */
-export class LaneGpu {
+export class RecoverableGpu {
   readonly #context: GpuContext;
   readonly #name: string | undefined;
   #opened: OpenedGpu | undefined;

@@ -10,7 +10,7 @@ export interface Job {
   lostGpus: number;
 }
 
-/** Images that wait for a GPU. A lane that takes one says later that it is done, or gives it back. */
+/** Images that wait for a GPU. A worker that takes one says later that it is done, or gives it back. */
 export class JobQueue {
   readonly #waiting: Job[];
   readonly #idle: (() => void)[] = [];

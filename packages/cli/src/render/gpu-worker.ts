@@ -1,5 +1,5 @@
 import { GlanzError, type Camera, type Scene } from '@glanz/scene';
-import type { Backend, FilmState, OpenedGpu, RenderStatistics, Tracer } from '../backend';
+import type { Backend, FilmState, OpenedGpu, Tracer } from '../backend';
 import { CliError } from '../errors';
 import type { CliIo } from '../io';
 import type { RenderCommandOptions } from '../options';
@@ -7,50 +7,17 @@ import type { OutputTarget } from '../output/formats';
 import { isImage, writeImage, type WrittenFile } from '../output/write';
 import { duration, rate, type ProgressReporter } from '../progress';
 import { CheckpointFile } from './checkpoint-file';
-import { Checkpoints } from './checkpoints';
-import { GpuGoneError, LaneGpu } from './gpu';
+import { GpuGoneError, RecoverableGpu } from './gpu';
 import type { Job } from './queue';
 import { imageAovs, readImage } from './read-image';
+import type { RenderedShot, RenderTimings } from './results';
 import { sceneKey, variantIndex, type PreparedScene, type SceneLoader } from './scene';
+import { beginShot, type ShotInProgress, type Timed } from './shot-in-progress';
 import { shotLabel, type Shot } from './shots';
 import { cameraOf } from '../views';
 
-/** Milliseconds per stage. */
-export interface RenderTimings {
-  /** The model alone, even where it has waited for the GPU to say which formats it reads. */
-  loadMs: number;
-  /** The environment, made or read. */
-  environmentMs: number;
-  deviceMs: number;
-  /** All of the preparation; its parts are in the statistics. */
-  prepareMs: number;
-  renderMs: number;
-  readMs: number;
-  writeMs: number;
-  totalMs: number;
-}
-
-/** An image that has been written. */
-export interface RenderedShot {
-  readonly files: readonly WrittenFile[];
-  readonly samples: number;
-  /** Samples that a checkpoint brought along. */
-  readonly resumedSamples: number;
-  /** How often the GPU was lost, and its work continued on a new device. */
-  readonly gpuLosses: number;
-  /** Relative error of the image when it was last looked at; only with `--noise`. */
-  readonly noise?: number;
-  readonly samplesPerSecond: number;
-  readonly camera: string;
-  readonly environment: string;
-  readonly adapter: { readonly name: string; readonly software: boolean };
-  readonly timings: RenderTimings;
-  readonly statistics: RenderStatistics;
-  readonly warnings: readonly string[];
-}
-
 /** How images are made. */
-export interface LaneContext {
+export interface WorkerContext {
   readonly io: CliIo;
   readonly backend: Backend;
   readonly progress: ProgressReporter;
@@ -67,39 +34,21 @@ const TICK_MS = 1000;
 const SUBMIT_MS = 200;
 const LABELS = { bvh: 'build hierarchy', upload: 'upload', compile: 'compile kernels' } as const;
 
-type Timed = <T>(key: keyof RenderTimings, run: () => Promise<T>) => Promise<T>;
-
-/** One image while it is made, across devices. */
-interface Making {
-  readonly shot: Shot;
-  readonly start: number;
-  readonly timings: RenderTimings;
-  readonly timed: Timed;
-  readonly checkpoints: Checkpoints;
-  readonly file: CheckpointFile | undefined;
-  /** Samples that this run did not make. */
-  readonly resumed: number;
-  /** What the file had in it. */
-  readonly read: FilmState | undefined;
-  readonly lossesBefore: number;
-  noise: number | undefined;
-}
-
 /**
  * One GPU, making one image after another. Images of the same scene share a tracer: another variant or view is an
  * edit, and the film restarts, so that its pixels are those of a tracer of its own. When the GPU is lost, the image
  * continues on a new device from its last checkpoint, with the same pixels as without the loss.
  */
-export class Lane {
-  readonly #context: LaneContext;
-  readonly #gpu: LaneGpu;
+export class GpuWorker {
+  readonly #context: WorkerContext;
+  readonly #gpu: RecoverableGpu;
   #tracer: Tracer | undefined;
   #key = '';
   #warnedScene: Scene | undefined;
 
-  constructor(context: LaneContext, gpuName: string | undefined) {
+  constructor(context: WorkerContext, gpuName: string | undefined) {
     this.#context = context;
-    this.#gpu = new LaneGpu(context, gpuName);
+    this.#gpu = new RecoverableGpu(context, gpuName);
   }
 
   /** For messages. */
@@ -120,7 +69,7 @@ export class Lane {
    */
   async render(job: Job): Promise<RenderedShot | undefined> {
     const { shot } = job;
-    const making = await this.#begin(job);
+    const making = await beginShot(job, this.#context, this.#gpu.losses);
     const { checkpoints } = making;
     this.#gpu.progressed();
     let reached = checkpoints.latest;
@@ -152,54 +101,8 @@ export class Lane {
     }
   }
 
-  /** What is kept of an image on its way, and where it begins. */
-  async #begin({ shot, film }: Job): Promise<Making> {
-    const { io, progress, backend } = this.#context;
-    const start = io.now();
-    const timings: RenderTimings = {
-      loadMs: 0,
-      environmentMs: 0,
-      deviceMs: 0,
-      prepareMs: 0,
-      renderMs: 0,
-      readMs: 0,
-      writeMs: 0,
-      totalMs: 0,
-    };
-    const timed: Timed = async (key, run) => {
-      const from = io.now();
-      try {
-        return await run();
-      } finally {
-        timings[key] += io.now() - from;
-      }
-    };
-    const codec = () => backend.filmCodec();
-    const file = shot.checkpoint === undefined ? undefined : new CheckpointFile(shot.checkpoint, shot, io.cwd);
-    const read = film ? undefined : await file?.read(codec);
-    if (read) progress.line(`${shot.checkpoint}: going on from sample ${read.samples}`);
-    const resumed = film ?? read;
-    const checkpoints = new Checkpoints(
-      { io, progress, codec, file, pixels: shot.options.width * shot.options.height },
-      resumed,
-      read,
-    );
-    return {
-      shot,
-      start,
-      timings,
-      timed,
-      checkpoints,
-      file,
-      resumed: resumed?.samples ?? 0,
-      read,
-      lossesBefore: this.#gpu.losses,
-      noise: undefined,
-    };
-  }
-
   /** Renders on the device there is, from the last checkpoint to the end. */
-  async #attempt(making: Making): Promise<RenderedShot | undefined> {
+  async #attempt(making: ShotInProgress): Promise<RenderedShot | undefined> {
     const { io, signal, keepPartial, progress } = this.#context;
     const { shot, timings, timed, checkpoints, file } = making;
     const { options } = shot;
@@ -296,7 +199,7 @@ export class Lane {
       progress.warning(`and ${warnings.length - MAX_WARNINGS} more; --json lists them all.`);
   }
 
-  async #restore(tracer: Tracer, { checkpoints, file, read, shot }: Making): Promise<void> {
+  async #restore(tracer: Tracer, { checkpoints, file, read, shot }: ShotInProgress): Promise<void> {
     const film = checkpoints.latest;
     if (!film) return;
     try {
@@ -318,7 +221,7 @@ export class Lane {
     }
   }
 
-  async #sample(tracer: Tracer, making: Making): Promise<void> {
+  async #sample(tracer: Tracer, making: ShotInProgress): Promise<void> {
     const { progress, signal } = this.#context;
     const {
       shot: { options },
@@ -361,7 +264,7 @@ export class Lane {
   }
 
   /** The error to end with, after the last checkpoint has been written. */
-  async #withCheckpoint(error: unknown, { checkpoints, file }: Making): Promise<unknown> {
+  async #withCheckpoint(error: unknown, { checkpoints, file }: ShotInProgress): Promise<unknown> {
     const samples = await checkpoints.flush();
     const kept = `${samples} samples are in "${file?.path}": the same command continues from there.`;
     if (!(error instanceof GpuGoneError)) {
