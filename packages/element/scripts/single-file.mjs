@@ -64,8 +64,25 @@ const SETTINGS = {
   write: false,
 };
 
+/** Modules that decode data when they are loaded; workers need none of it. */
+const DEFERRED = new Set(['@glanz/openpbr/tables']);
+
+/**
+ * Imports modules of the same file statically: esbuild wraps each module that import() loads in a function, with all
+ * that it imports, which takes about 1 kB.
+ */
+function importStatically(text, files) {
+  const names = new Map();
+  const body = text.replace(/\bimport\('((?:\.{1,2}|@glanz)\/[^']+)'\)/g, (all, module) => {
+    if (DEFERRED.has(module) || Object.hasOwn(files, module) || Object.hasOwn(DECODERS, module.slice(2))) return all;
+    if (!names.has(module)) names.set(module, `imported${names.size}`);
+    return `Promise.resolve(${names.get(module)})`;
+  });
+  return body + [...names].map(([module, name]) => `\nimport * as ${name} from '${module}';`).join('');
+}
+
 /** Reads sources as they are published, with `REPLACED`; `missing` loses each text that was there. */
-const sources = (missing) => ({
+const sources = (missing, files) => ({
   name: 'sources',
   setup(context) {
     context.onLoad({ filter: /[\\/]src[\\/].*\.ts$/ }, async ({ path }) => {
@@ -76,7 +93,7 @@ const sources = (missing) => ({
         text = text.replaceAll(from, to);
         missing.delete(`${file}: ${from}`);
       }
-      return { contents: preparePublished(text, path), loader: 'ts' };
+      return { contents: importStatically(preparePublished(text, path), files), loader: 'ts' };
     });
   },
 });
@@ -110,7 +127,7 @@ export async function buildSingleFile(folder, to) {
     const { outputFiles } = await build({
       ...SETTINGS,
       stdin,
-      plugins: [beside(files), packedWasm(folder), weslSource({ shrink: true }), sources(missing)],
+      plugins: [beside(files), packedWasm(folder), weslSource({ shrink: true }), sources(missing, files)],
     });
     await writeFile(join(to, name), outputFiles[0].contents);
     return name;
