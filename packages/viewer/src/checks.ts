@@ -6,10 +6,12 @@ import {
   type RenderOptionName,
   type RenderSettings,
 } from '@glanz/renderer/options';
-import type { Camera } from '@glanz/scene';
-import { ViewerError } from './errors';
+import { cross, dot } from 'gl-matrix/esm/vec3.js';
+import type { Camera, Scene } from '@glanz/scene';
+import type { Engine } from './engine';
+import { destroyed, ViewerError } from './errors';
 import type { ViewerOptions } from './options';
-import type { Orbit, OrbitLimits, Vector } from './orbit-state';
+import { column, type Orbit, type OrbitLimits, type Vector } from './orbit-state';
 
 /** Metres: beyond, single precision, in which the GPU computes, has no digits left for a model. */
 const FAR = 1e12;
@@ -39,13 +41,18 @@ const WHOLE: ReadonlySet<string> = new Set(['maxPixels', 'width', 'height']);
 type Code = 'viewer/option' | 'viewer/camera';
 
 /** @throws {ViewerError} unless the value is a number from `low` to `high`, both finite or infinite, but not NaN. */
-function number(value: unknown, what: string, low: number, high: number, code: Code): number {
+function number(value: unknown, what: string, low: number, high: number, code: Code = 'viewer/camera'): number {
   if (typeof value !== 'number' || !(value >= low && value <= high)) {
     const range = low === -high ? `of at most ${high} in either direction` : `from ${low} to ${high}`;
-    throw new ViewerError(code, `${what} is ${shownValue(value)}; it must be a number ${range}.`);
+    throw wrong(what, value, `a number ${range}`, code);
   }
   return value;
 }
+
+const wrong = (what: string, value: unknown, needs: string, code: Code = 'viewer/camera') =>
+  new ViewerError(code, `${what} is ${shownValue(value)}; it must be ${needs}.`);
+const cameraError = (message: string) => new ViewerError('viewer/camera', message);
+const isObject = (value: unknown): boolean => typeof value === 'object' && value !== null;
 
 /**
  * A setting's value.
@@ -54,8 +61,7 @@ function number(value: unknown, what: string, low: number, high: number, code: C
 export function checkedSetting(name: keyof typeof RANGES, value: unknown): number {
   const [low, high] = RANGES[name];
   const checked = number(value, name, low, high, 'viewer/option');
-  if (WHOLE.has(name) && !Number.isInteger(checked))
-    throw new ViewerError('viewer/option', `${name} is ${checked}; it must be a whole number.`);
+  if (WHOLE.has(name) && !Number.isInteger(checked)) throw wrong(name, value, 'a whole number', 'viewer/option');
   return checked;
 }
 
@@ -69,20 +75,20 @@ export function checkedOption<Name extends RenderOptionName>(
   value: unknown,
   as: string = name,
 ): NonNullable<RenderSettings[Name]> {
-  if (!takesOption(name, value))
-    throw new ViewerError('viewer/option', `${as} is ${shownValue(value)}; it must be ${optionValues(name)}.`);
+  if (!takesOption(name, value)) throw wrong(as, value, optionValues(name), 'viewer/option');
   return value as NonNullable<RenderSettings[Name]>;
 }
 
 /**
- * Checks all settings that are given; those of the preview lie in an object of their own. @throws {ViewerError}
- * `viewer/option`
+ * Checks all settings that are given; those of the preview lie in an object of their own.
+ * @throws {ViewerError} `viewer/option`; `viewer/camera` for the limits of the orbit.
  */
 export function checkSettings(options: ViewerOptions): void {
   for (const name of Object.keys(RENDER_OPTIONS) as RenderOptionName[]) {
     const value = (options as RenderSettings)[name];
     if (value !== undefined) checkedOption(name, value);
   }
+  if (options.orbitLimits !== undefined) checkedLimits(options.orbitLimits);
   const depth = options.preview?.maxDepth;
   if (depth !== undefined) checkedOption('maxDepth', depth, 'preview.maxDepth');
   for (const name of Object.keys(RANGES) as (keyof typeof RANGES)[]) {
@@ -99,107 +105,83 @@ export function checkSettings(options: ViewerOptions): void {
  * A number that moves the camera: of radians, heights of the image, or CSS pixels. @throws {ViewerError}
  * `viewer/camera`
  */
-export const checkedAmount = (value: unknown, what: string): number =>
-  number(value, what, -MAX_TURN, MAX_TURN, 'viewer/camera');
+export const checkedAmount = (value: unknown, what: string): number => number(value, what, -MAX_TURN, MAX_TURN);
 
 /** @throws {ViewerError} `viewer/camera` unless the value is three finite numbers of metres. */
 export function checkedPoint(value: unknown, what: string): Vector {
   const point = value as Vector;
-  if (typeof value !== 'object' || value === null || point.length !== 3)
-    throw new ViewerError('viewer/camera', `${what} is ${shownValue(value)}; it must be three numbers.`);
-  return [0, 1, 2].map((k) => number(point[k as 0], `${what}[${k}]`, -FAR, FAR, 'viewer/camera')) as unknown as Vector;
+  if (!isObject(value) || point.length !== 3) throw wrong(what, value, 'three numbers');
+  return [0, 1, 2].map((k) => number(point[k as 0], `${what}[${k}]`, -FAR, FAR)) as unknown as Vector;
 }
 
 /** @throws {ViewerError} `viewer/camera` unless the value is three finite numbers that are not all 0. */
 export function checkedDirection(value: unknown, what: string): Vector {
   const direction = checkedPoint(value, what);
-  if (!(Math.hypot(...direction) > 1e-12))
-    throw new ViewerError('viewer/camera', `${what} has no length, so it gives no direction.`);
+  if (!(Math.hypot(...direction) > 1e-12)) throw cameraError(`${what} has no length, so it gives no direction.`);
   return direction;
 }
 
 /** A magnification. @throws {ViewerError} `viewer/camera` */
-export const checkedZoom = (value: unknown): number => number(value, 'zoom', 1e-6, 1e6, 'viewer/camera');
+export const checkedZoom = (value: unknown): number => number(value, 'zoom', 1e-6, 1e6);
 
 /** A vertical field of view, radians. @throws {ViewerError} `viewer/camera` unless it lies between 0 and π. */
 export function checkedFieldOfView(value: unknown): number {
   if (typeof value !== 'number' || !(value > 1e-6 && value < Math.PI - 1e-6))
-    throw new ViewerError(
-      'viewer/camera',
-      `The vertical field of view is ${shownValue(value)}; it must be a number of radians between 0 and π.`,
-    );
+    throw wrong('The vertical field of view', value, 'a number of radians between 0 and π');
   return value;
 }
 
 /** The given parts of an orbit. @throws {ViewerError} `viewer/camera` */
-export function checkedOrbit(orbit: Partial<Orbit>): Partial<Orbit> {
-  if (typeof orbit !== 'object' || orbit === null)
-    throw new ViewerError(
-      'viewer/camera',
-      `An orbit is an object with theta, phi, radius or target, not ${shownValue(orbit)}.`,
-    );
-  const { theta, phi, radius, target, zoom } = orbit;
+export function checkedOrbit(orbit: Partial<Orbit>): { readonly [Name in keyof Orbit]: Orbit[Name] | undefined } {
+  if (!isObject(orbit))
+    throw cameraError(`An orbit is an object with theta, phi, radius or target, not ${shownValue(orbit)}.`);
+  const given = <T>(name: keyof Orbit, check: (value: unknown, what: string) => T) =>
+    orbit[name] === undefined ? undefined : check(orbit[name], name);
   return {
-    ...(theta === undefined ? {} : { theta: number(theta, 'theta', -MAX_TURN, MAX_TURN, 'viewer/camera') }),
-    ...(phi === undefined ? {} : { phi: number(phi, 'phi', -MAX_TURN, MAX_TURN, 'viewer/camera') }),
-    ...(radius === undefined ? {} : { radius: number(radius, 'radius', 1 / FAR, FAR, 'viewer/camera') }),
-    ...(target === undefined ? {} : { target: checkedPoint(target, 'target') }),
-    ...(zoom === undefined ? {} : { zoom: checkedZoom(zoom) }),
+    theta: given('theta', checkedAmount),
+    phi: given('phi', checkedAmount),
+    radius: given('radius', (value, what) => number(value, what, 1 / FAR, FAR)),
+    target: given('target', checkedPoint),
+    zoom: given('zoom', checkedZoom),
   };
 }
 
 /** Limits of an orbit; infinite ones limit nothing. @throws {ViewerError} `viewer/camera` */
 export function checkedLimits(limits: OrbitLimits): OrbitLimits {
-  if (typeof limits !== 'object' || limits === null)
-    throw new ViewerError(
-      'viewer/camera',
-      `Limits of an orbit are an object with theta, phi or radius, not ${shownValue(limits)}.`,
-    );
-  const range = (name: keyof OrbitLimits): readonly [number, number] | undefined => {
+  if (!isObject(limits))
+    throw cameraError(`Limits of an orbit are an object with theta, phi or radius, not ${shownValue(limits)}.`);
+  const checked: { -readonly [Name in keyof OrbitLimits]: OrbitLimits[Name] } = {};
+  for (const name of ['theta', 'phi', 'radius'] as const) {
     const pair = limits[name];
-    if (pair === undefined) return undefined;
+    if (pair === undefined) continue;
     if (!Array.isArray(pair) || pair.length !== 2)
-      throw new ViewerError(
-        'viewer/camera',
-        `The limit of ${name} is ${shownValue(pair)}; it must be two numbers, the lowest and the highest.`,
-      );
-    const [low, high] = pair.map((value, k) =>
-      number(value, `The limit of ${name}[${k}]`, -Infinity, Infinity, 'viewer/camera'),
-    ) as [number, number];
+      throw wrong(`The limit of ${name}`, pair, 'two numbers, the lowest and the highest');
+    const [low, high] = pair.map((value, k) => number(value, `The limit of ${name}[${k}]`, -Infinity, Infinity)) as [
+      number,
+      number,
+    ];
     if (low > high || (name === 'radius' && !(high > 0)) || low === Infinity || high === -Infinity)
-      throw new ViewerError(
-        'viewer/camera',
-        `The limits of ${name} are ${low} and ${high}, which leave nothing between them.`,
-      );
-    return [low, high];
-  };
-  const [theta, phi, radius] = [range('theta'), range('phi'), range('radius')];
-  return { ...(theta ? { theta } : {}), ...(phi ? { phi } : {}), ...(radius ? { radius } : {}) };
+      throw cameraError(`The limits of ${name} are ${low} and ${high}, which leave nothing between them.`);
+    checked[name] = [low, high];
+  }
+  return checked;
 }
 
 /** A camera that can be rendered with. @throws {ViewerError} `viewer/camera` */
 export function checkedCamera(camera: Camera): Camera {
-  if (typeof camera !== 'object' || camera === null)
-    throw new ViewerError('viewer/camera', `A camera is an object with type and transform, not ${shownValue(camera)}.`);
+  if (!isObject(camera)) throw cameraError(`A camera is an object with type and transform, not ${shownValue(camera)}.`);
   const what = `Camera ${shownValue(camera.name)}`;
   const { type, transform } = camera;
   if (type !== 'perspective' && type !== 'orthographic' && type !== 'panorama')
-    throw new ViewerError(
-      'viewer/camera',
-      `${what} has the type ${shownValue(type)}; it must be perspective, orthographic or panorama.`,
-    );
-  if (typeof transform !== 'object' || transform === null || transform.length !== 16)
-    throw new ViewerError('viewer/camera', `${what} has no transform of 16 numbers.`);
-  const m = Array.from(transform, (value, k) => number(value, `${what}: transform[${k}]`, -FAR, FAR, 'viewer/camera'));
-  const [x, y, z] = [0, 4, 8].map((k) => [m[k], m[k + 1], m[k + 2]]) as unknown as [Vector, Vector, Vector];
-  const volume = Math.abs(
-    x[0] * (y[1] * z[2] - y[2] * z[1]) - y[0] * (x[1] * z[2] - x[2] * z[1]) + z[0] * (x[1] * y[2] - x[2] * y[1]),
-  );
+    throw cameraError(`${what} has the type ${shownValue(type)}; it must be perspective, orthographic or panorama.`);
+  if (!isObject(transform) || transform.length !== 16) throw cameraError(`${what} has no transform of 16 numbers.`);
+  const m = Array.from(transform, (value, k) => number(value, `${what}: transform[${k}]`, -FAR, FAR));
+  const [x, y, z] = [0, 4, 8].map((k) => column(m, k)) as [Vector, Vector, Vector];
+  const volume = Math.abs(dot(x, cross([0, 0, 0], y, z)));
   if (!(volume > 1e-6 * Math.hypot(...x) * Math.hypot(...y) * Math.hypot(...z)))
-    throw new ViewerError('viewer/camera', `${what}: the axes of its transform have no length or lie in one plane.`);
+    throw cameraError(`${what}: the axes of its transform have no length or lie in one plane.`);
   if (type === 'orthographic') {
-    for (const name of ['xmag', 'ymag'] as const)
-      number(camera[name], `${what}: ${name}`, 1 / FAR, FAR, 'viewer/camera');
+    for (const name of ['xmag', 'ymag'] as const) number(camera[name], `${what}: ${name}`, 1 / FAR, FAR);
   } else if (type === 'perspective') {
     checkedFieldOfView(camera.yfov);
     for (const [name, low] of [
@@ -209,8 +191,20 @@ export function checkedCamera(camera: Camera): Camera {
       ['lens_rotation', -FAR],
       ['focus_distance', 1 / FAR],
     ] as const) {
-      if (camera[name] !== undefined) number(camera[name], `${what}: ${name}`, low, FAR, 'viewer/camera');
+      if (camera[name] !== undefined) number(camera[name], `${what}: ${name}`, low, FAR);
     }
   }
   return camera;
+}
+
+/** @throws {ViewerError} `viewer/destroyed` */
+export function checkAlive(engine: Engine): void {
+  if (engine.state === 'destroyed') throw destroyed();
+}
+
+/** The scene that an engine shows. @throws {ViewerError} `viewer/destroyed`, `viewer/no-scene` */
+export function sceneOf(engine: Engine): Scene {
+  checkAlive(engine);
+  if (!engine.tracer) throw new ViewerError('viewer/no-scene', 'There is no scene yet: await load() first.');
+  return engine.tracer.scene;
 }

@@ -1,13 +1,14 @@
 import { requestDevice } from '@glanz/renderer';
-import { checkToneMapOptions, type ToneMapOptions } from '@glanz/tonemap';
+import type { ToneMapOptions } from '@glanz/tonemap';
 import { Display } from './display';
-import { destroyed, isAbort, ViewerError } from './errors';
+import { isAbort } from './aborts';
+import { destroyed, ViewerError } from './errors';
 import { Losses } from './losses';
 
 /** What a connection reports to its engine. */
 export interface ConnectionEvents {
   /** There is no device, but it is asked for again for about two seconds. */
-  readonly missing: (error: unknown) => void;
+  readonly missing?: ((error: unknown) => void) | undefined;
   /** The device is gone; another one is asked for. */
   readonly lost: (reason: string) => void;
   /** Another attempt to get one begins. */
@@ -103,10 +104,11 @@ export class Connection {
 
   /**
    * Sets exposure and tone map, of this display and of those to come.
-   * @throws {ToneMapError} `tonemap/unknown`, `tonemap/exposure`, `tonemap/pipeline`; what was refused is not kept.
+   *
+   * @param view Checked by the caller.
+   * @throws {ToneMapError} `tonemap/pipeline`; what was refused is not kept.
    */
   async setView(view: ToneMapOptions): Promise<void> {
-    checkToneMapOptions(view);
     this.#view = { ...this.#view, ...view };
     const display = this.#display;
     try {
@@ -149,7 +151,7 @@ export class Connection {
       await this.#connect();
     } catch (error) {
       if (this.#destroyed || FOR_GOOD.has((error as { code?: unknown }).code)) throw error;
-      this.#events.missing(error);
+      this.#events.missing?.(error);
       await this.#reconnect();
     }
   }

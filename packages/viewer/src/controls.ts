@@ -29,6 +29,8 @@ export interface ControlOptions {
 /** Radians of orbit for a drag over the whole height. */
 const DRAG_TURN = Math.PI;
 /** Radians, heights and factor of one key press. */
+/** Pixels per unit of a wheel event: of pixels, lines and pages. */
+const WHEEL_PIXELS = [1, 16, 400];
 const KEY = { turn: Math.PI / 24, pan: 0.05, zoom: 1.12 } as const;
 /** A press that moves less is a click. */
 const CLICK_PIXELS = 4;
@@ -41,6 +43,8 @@ interface Point {
   x: number;
   y: number;
 }
+
+const distance = (a: Point, b: Point) => Math.hypot(a.x - b.x, a.y - b.y);
 
 /**
  * Pointer, touch, wheel and keyboard on an element: drag to orbit; Shift, middle or right button to pan; wheel to zoom;
@@ -76,111 +80,87 @@ export function controlCamera(
     } else if (orbit) commands.orbit(-dx * DRAG_TURN, dy * DRAG_TURN);
   };
 
-  element.addEventListener(
-    'pointerdown',
-    (event) => {
-      // A synthetic pointer cannot be captured; a real one always can.
-      if (event.isTrusted) element.setPointerCapture(event.pointerId);
-      pointers.set(event.pointerId, at(event));
-      moved = pointers.size > 1;
-      start = { ...at(event), pan: event.button !== 0 || event.shiftKey };
-    },
-    { signal },
-  );
-  element.addEventListener(
-    'pointermove',
-    (event) => {
-      hover = at(event);
-      const from = pointers.get(event.pointerId);
-      if (!from || !start) return;
-      const to = at(event);
-      if (
-        !moved &&
-        Math.hypot(to.x - start.x, to.y - start.y) < (event.pointerType === 'touch' ? TAP_PIXELS : CLICK_PIXELS)
-      )
-        return;
-      moved = true;
-      if (pointers.size === 1) drag(from, to, start.pan);
-      else {
-        const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1] ?? from;
-        const [before, after] = [
-          Math.hypot(from.x - other.x, from.y - other.y),
-          Math.hypot(to.x - other.x, to.y - other.y),
-        ];
-        // The middle of two fingers moves half as far as the one that moves.
-        drag({ x: from.x / 2, y: from.y / 2 }, { x: to.x / 2, y: to.y / 2 }, true);
-        if (zoom && before > 8 && after > 8) commands.zoom(after / before);
-      }
-      pointers.set(event.pointerId, to);
-    },
-    { signal },
-  );
-  element.addEventListener('pointerleave', () => void (hover = undefined), { signal });
+  const on = <K extends keyof HTMLElementEventMap>(
+    type: K,
+    listener: (event: HTMLElementEventMap[K]) => void,
+    options?: AddEventListenerOptions,
+  ) => element.addEventListener(type, listener, { signal, ...options });
+
+  on('pointerdown', (event) => {
+    // A synthetic pointer cannot be captured; a real one always can.
+    if (event.isTrusted) element.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, at(event));
+    moved = pointers.size > 1;
+    start = { ...at(event), pan: event.button !== 0 || event.shiftKey };
+  });
+  on('pointermove', (event) => {
+    hover = at(event);
+    const from = pointers.get(event.pointerId);
+    if (!from || !start) return;
+    const to = at(event);
+    if (!moved && distance(to, start) < (event.pointerType === 'touch' ? TAP_PIXELS : CLICK_PIXELS)) return;
+    moved = true;
+    if (pointers.size === 1) drag(from, to, start.pan);
+    else {
+      const other = [...pointers].find(([id]) => id !== event.pointerId)?.[1] ?? from;
+      const [before, after] = [distance(from, other), distance(to, other)];
+      // The middle of two fingers moves half as far as the one that moves.
+      drag({ x: from.x / 2, y: from.y / 2 }, { x: to.x / 2, y: to.y / 2 }, true);
+      if (zoom && before > 8 && after > 8) commands.zoom(after / before);
+    }
+    pointers.set(event.pointerId, to);
+  });
+  on('pointerleave', () => void (hover = undefined));
   const release = (event: PointerEvent) => {
     if (!pointers.delete(event.pointerId) || event.type !== 'pointerup' || moved || event.button !== 0) return;
-    const { x, y } = at(event);
+    const point = at(event);
+    const { x, y } = point;
     if (event.pointerType === 'touch' && focus) {
       const again =
-        lastTap &&
-        event.timeStamp - lastTap.time < DOUBLE_TAP_MS &&
-        Math.hypot(x - lastTap.x, y - lastTap.y) < 4 * TAP_PIXELS;
-      lastTap = again ? undefined : { x, y, time: event.timeStamp };
+        lastTap && event.timeStamp - lastTap.time < DOUBLE_TAP_MS && distance(point, lastTap) < 4 * TAP_PIXELS;
+      lastTap = again ? undefined : { ...point, time: event.timeStamp };
       if (again) return commands.focus(x, y);
     }
     commands.pick(x, y);
   };
-  element.addEventListener('pointerup', release, { signal });
-  element.addEventListener('pointercancel', release, { signal });
-  element.addEventListener('contextmenu', (event) => panning && event.preventDefault(), { signal });
+  on('pointerup', release);
+  on('pointercancel', release);
+  on('contextmenu', (event) => panning && event.preventDefault());
   if (focus) {
-    element.addEventListener(
-      'dblclick',
-      (event) => {
-        const { x, y } = at(event);
-        commands.focus(x, y);
-      },
-      { signal },
-    );
+    on('dblclick', (event) => {
+      const { x, y } = at(event);
+      commands.focus(x, y);
+    });
   }
   if (zoom) {
-    element.addEventListener(
+    on(
       'wheel',
       (event) => {
         event.preventDefault();
-        const pixels =
-          event.deltaY *
-          (event.deltaMode === WheelEvent.DOM_DELTA_LINE
-            ? 16
-            : event.deltaMode === WheelEvent.DOM_DELTA_PAGE
-              ? 400
-              : 1);
+        const pixels = event.deltaY * (WHEEL_PIXELS[event.deltaMode] as number);
         commands.zoom(Math.exp(-Math.max(-240, Math.min(240, pixels)) * (event.ctrlKey ? 0.01 : 0.0015)));
       },
-      { signal, passive: false },
+      { passive: false },
     );
   }
-  element.addEventListener(
-    'keydown',
-    (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey) return;
-      const middle = { x: element.clientWidth / 2, y: element.clientHeight / 2 };
-      const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (arrow) {
-        const [x, y] = arrow as [number, number];
-        if (event.shiftKey && panning) commands.pan(x * KEY.pan, y * KEY.pan);
-        else if (!event.shiftKey && orbit) commands.orbit(x * KEY.turn, y * KEY.turn);
-        else return;
-      } else if (zoom && (event.key === '+' || event.key === '=')) commands.zoom(KEY.zoom);
-      else if (zoom && (event.key === '-' || event.key === '_')) commands.zoom(1 / KEY.zoom);
-      else if (event.key === '0' || event.key === 'Home') commands.home();
-      else if (event.key === 'Enter') commands.pick(middle.x, middle.y);
-      else if (focus && (event.key === 'f' || event.key === 'F')) {
-        const { x, y } = hover ?? middle;
-        commands.focus(x, y);
-      } else return;
-      event.preventDefault();
-    },
-    { signal },
-  );
+  on('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const middle = { x: element.clientWidth / 2, y: element.clientHeight / 2 };
+    const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (arrow) {
+      const [x, y] = arrow as [number, number];
+      if (event.shiftKey && panning) commands.pan(x * KEY.pan, y * KEY.pan);
+      else if (!event.shiftKey && orbit) commands.orbit(x * KEY.turn, y * KEY.turn);
+      else return;
+    } else if (zoom && (event.key === '+' || event.key === '=')) commands.zoom(KEY.zoom);
+    else if (zoom && (event.key === '-' || event.key === '_')) commands.zoom(1 / KEY.zoom);
+    else if (event.key === '0' || event.key === 'Home') commands.home();
+    else if (event.key === 'Enter') commands.pick(middle.x, middle.y);
+    else if (focus === true && /^f$/i.test(event.key)) {
+      const { x, y } = hover ?? middle;
+      commands.focus(x, y);
+    } else return;
+    event.preventDefault();
+  });
   return () => listeners.abort();
 }

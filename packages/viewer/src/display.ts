@@ -70,7 +70,7 @@ export class Display {
       if (!context)
         throw new ViewerError(
           'viewer/no-canvas',
-          'The canvas gives no WebGPU context: it may have one of another kind already; use a fresh canvas.',
+          'The canvas has no WebGPU context: use a canvas without a context of another kind.',
         );
       const uniforms = await withErrorScopes(device, 'drawing', () =>
         device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST }),

@@ -1,3 +1,5 @@
+import { isLoss } from './aborts';
+
 type Apply = (merged: object) => void | Promise<void> | undefined;
 
 /** One call of an edit. */
@@ -7,9 +9,6 @@ interface Call {
   readonly resolve: () => void;
   readonly reject: (error: unknown) => void;
 }
-
-/** Whether the device went away under an edit: it is applied again to the next one. */
-const isLoss = (error: unknown) => (error as { code?: unknown } | null)?.code === 'renderer/device-lost';
 
 /** Edits that wait for their turn. Of several with one key the last one counts; the fields of their values add up. */
 export class Edits {

@@ -1,46 +1,47 @@
 /** Options for {@link Emitter.on}. */
 export interface ListenOptions {
-  /** Hear the next event only. Default false. */
+  /** Calls the listener for the next event only. Default false. */
   readonly once?: boolean;
-  /** Stops listening when it aborts. */
+  /** Removes the listener when it aborts. */
   readonly signal?: AbortSignal;
 }
 
-/** Typed events. `Events` maps names to what listeners are given. */
+/** Typed events. `Events` maps the name of an event to the type of its detail. */
 export class Emitter<Events extends object> {
-  readonly #listeners = new Map<keyof Events, Set<(detail: never) => void>>();
+  #listeners: Map<keyof Events, Set<(detail: never) => void>> | undefined = new Map();
 
   /**
-   * Listens. One listener that throws does not keep others from hearing: its error goes to the console's uncaught
-   * errors.
+   * Adds a listener. Where one throws, the others are called all the same, and its error is an uncaught error of the
+   * page.
    *
-   * @returns What stops listening.
+   * @returns A function that removes the listener.
    */
   on<K extends keyof Events>(type: K, listener: (detail: Events[K]) => void, options: ListenOptions = {}): () => void {
     const { once = false, signal } = options;
-    if (signal?.aborted) return () => undefined;
-    const off = () => {
-      this.#listeners.get(type)?.delete(heard);
-      signal?.removeEventListener('abort', off);
-    };
-    const heard = (detail: Events[K]) => {
+    const called = (detail: Events[K]) => {
       if (once) off();
       listener(detail);
     };
+    const off = () => {
+      this.#listeners?.get(type)?.delete(called);
+      signal?.removeEventListener('abort', off);
+    };
+    if (!this.#listeners || signal?.aborted) return off;
     const set = this.#listeners.get(type) ?? new Set();
-    this.#listeners.set(type, set.add(heard as (detail: never) => void));
+    this.#listeners.set(type, set.add(called as (detail: never) => void));
     signal?.addEventListener('abort', off);
     return off;
   }
 
-  /** Whether anybody listens. */
-  protected heard(type: keyof Events): boolean {
-    return (this.#listeners.get(type)?.size ?? 0) > 0;
+  /** Whether an event has listeners. */
+  has(type: keyof Events): boolean {
+    return (this.#listeners?.get(type)?.size ?? 0) > 0;
   }
 
-  protected emit<K extends keyof Events>(type: K, detail: Events[K]): void {
-    // Those that are there now: a listener may add or remove some.
-    for (const listener of Array.from(this.#listeners.get(type) ?? [])) {
+  /** Calls the listeners of an event, in the order in which they were added. */
+  emit<K extends keyof Events>(type: K, detail: Events[K]): void {
+    // A copy: a listener may add or remove others.
+    for (const listener of Array.from(this.#listeners?.get(type) ?? [])) {
       try {
         (listener as (detail: Events[K]) => void)(detail);
       } catch (error) {
@@ -52,7 +53,8 @@ export class Emitter<Events extends object> {
     }
   }
 
-  protected silence(): void {
-    this.#listeners.clear();
+  /** Removes all listeners; those that are added later are never called. */
+  close(): void {
+    this.#listeners = undefined;
   }
 }

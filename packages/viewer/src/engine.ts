@@ -1,32 +1,18 @@
-import { compressedFormats, PathTracer, type PrepareProgress } from '@glanz/renderer';
-import type { CompressedFormat } from '@glanz/scene';
+import { compressedFormats, PathTracer, type PathTracerOptions, type PrepareProgress } from '@glanz/renderer';
+import { untilAborted, type CompressedFormat } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMapOptions } from '@glanz/tonemap';
 import { Connection } from './connection';
-import { Edits } from './edits';
 import type { EngineHost, EngineSettings, Take, TracerCopy } from './engine-host';
-import { isAbort } from './errors';
+import { abortError, isAbort } from './aborts';
 import type { ViewerState } from './events';
-import { FilmFit, sameSize, scaledSize } from './film-fit';
-import { FilmKeeper } from './film-keeper';
-import { previewShare } from './crossfade';
 import { RememberingHierarchies } from './hierarchies';
 import { makeTracer } from './make-tracer';
 import { Preparation } from './preparation';
-import { PreviewController } from './preview';
-import { untilAborted } from '@glanz/scene';
-import { nextFrame, soon, Visibility } from './visibility';
+import { RenderLoop, type Size } from './render-loop';
 
 export type { EngineHost, EngineSettings, Take, TracerCopy } from './engine-host';
 export type { ViewerState } from './events';
 
-/** Samples after which a preview that stands still has no more to gain. */
-const PREVIEW_SAMPLES = 16;
-/** A frame that began so many milliseconds ago was not of this turn of the screen. */
-const SCREEN_MS = 15;
-/** Milliseconds of one submission of the preview: it shall be one. */
-const PREVIEW_SUBMIT_MS = 50;
-
-type Size = readonly [number, number];
 /** Gives what a tracer is made from: of a scene as it came, or as it was edited in the tracer whose device was lost. */
 type Source = (former: PathTracer | undefined) => Take;
 
@@ -40,48 +26,24 @@ export interface ShowOptions {
 }
 
 /**
- * Device, tracer and canvas: shows a small preview while something moves, refines the image when it rests, sleeps
- * when there is nothing to do or nobody sees it, and comes back after the device was lost.
+ * Device, tracer and canvas: prepares scenes, renders them in a loop (a small preview while something moves, the image
+ * when it rests, nothing when it is done or nobody sees it), and continues after the device was lost.
  */
 export class Engine {
   readonly settings: EngineSettings;
   readonly #host: EngineHost;
-  readonly #edits = new Edits();
+  readonly #loop: RenderLoop;
   readonly #connection: Connection;
-  readonly #visibility: Visibility;
-  readonly #films = new FilmFit();
-  readonly #keeper = new FilmKeeper();
-  readonly #preparation = new Preparation(() => this.#wake());
-  readonly #preview: PreviewController;
+  readonly #preparation = new Preparation(() => this.#loop.stir());
   #hierarchies: RememberingHierarchies | undefined;
-  #tracer: PathTracer | undefined;
   /** The device that the tracer is on, perhaps a lost one. */
   #tracerDevice: GPUDevice | undefined;
   #source: Source | undefined;
-  #film: Size = [1, 1];
-  #canvasSize: Size = [1, 1];
-  #state: ViewerState = 'empty';
   #failed = false;
   #destroyed = false;
-  #paused = false;
-  /** Whether the film holds a sample since it was last cleared. */
-  #fresh = false;
   /** Samples of the image when its device was lost, and how many of them came back. */
   #lostSamples = 0;
   #keptSamples = 0;
-  /** Whether a film that the GPU has no memory for was reported. */
-  #smaller = false;
-  /** The time has come to try the whole size again. */
-  #growing = false;
-  #done = false;
-  #dirtyCamera = true;
-  #settle = 0;
-  #changed = 0;
-  #lastStep = 0;
-  #lastPreview = -Infinity;
-  #frame = 0;
-  #interrupt = new AbortController();
-  #wake: () => void = () => undefined;
 
   /**
    * @param canvas One that has no context yet, or had an engine before.
@@ -90,23 +52,23 @@ export class Engine {
   constructor(canvas: HTMLCanvasElement, settings: EngineSettings, budgetMs: number, host: EngineHost) {
     this.settings = settings;
     this.#host = host;
-    this.#preview = new PreviewController(budgetMs);
-    this.#visibility = new Visibility(canvas, () => this.#stir());
+    this.#loop = new RenderLoop(canvas, settings, budgetMs, host, {
+      display: () => this.#connection.display,
+      blocked: () => this.#blocked(),
+      isCurrent: (tracer) => this.#current(tracer),
+      failed: (error) => this.#fail(error),
+    });
     const { exposure = 0, toneMap = 'neutral' } = settings;
     this.#connection = new Connection(
       canvas,
       { exposure, toneMap },
       {
-        missing: (error) => this.#host.missing?.(error),
+        missing: host.missing,
         lost: (reason) => {
-          if (this.current) this.#lostSamples = this.#tracer?.samples ?? 0;
+          if (this.current) this.#lostSamples = this.tracer?.samples ?? 0;
           this.#host.lost(reason);
         },
-        recovering: () => {
-          this.#fresh = false;
-          this.#setState('recovering');
-          this.#stir();
-        },
+        recovering: () => this.#loop.lose(),
         back: () => this.#rebuild(),
         restored: (milliseconds) => {
           const samples = this.#keptSamples;
@@ -115,7 +77,7 @@ export class Engine {
           this.#host.restored(milliseconds, { samples, lostSamples });
         },
         failed: (error) => this.#fail(error),
-        error: (error) => this.#host.error(error),
+        error: host.error,
       },
       settings.requestDevice,
     );
@@ -124,12 +86,12 @@ export class Engine {
       () => this.device && this.#builder && this.#preparation.warmUp(this.device, this.#builder, settings.warmUp),
       () => undefined,
     );
-    void this.#run();
+    void this.#loop.run();
   }
 
   /** The path tracer of the present scene; another one after each `show()` and each loss of the device. */
   get tracer(): PathTracer | undefined {
-    return this.#tracer;
+    return this.#loop.tracer;
   }
 
   /** The device in use; another one after each loss. */
@@ -149,32 +111,22 @@ export class Engine {
   }
 
   get state(): ViewerState {
-    return this.#state;
+    return this.#loop.state;
   }
 
   /** Whether the film holds a sample of the scene as it is now, in whatever size. */
   get fresh(): boolean {
-    return this.#fresh;
+    return this.#loop.fresh;
   }
 
   /** Whether the film shows the whole image as it is now. */
   get current(): boolean {
-    return (
-      this.#fresh &&
-      !this.#moving() &&
-      !!this.#tracer &&
-      sameSize([this.#tracer.width, this.#tracer.height], this.#full)
-    );
-  }
-
-  /** Pixels of the image in full, as far as the GPU has memory for them. */
-  get #full(): Size {
-    return this.#films.sizeFor(this.#film);
+    return this.#loop.current;
   }
 
   /** Pixels of the image in full, as far as the GPU has memory for them. */
   get imageSize(): Size {
-    return this.#full;
+    return this.#loop.imageSize;
   }
 
   /**
@@ -182,35 +134,25 @@ export class Engine {
    * @param aspect Width over height of its image, which the camera fits.
    */
   copyFor(aspect: number): TracerCopy | undefined {
-    const { device } = this;
-    if (!this.#source || !device || !this.#current(this.#tracer)) return undefined;
-    const take = this.#source(this.#tracer);
-    const { maxDepth, background, tracer } = this.settings;
-    const builder = this.#builder;
-    const options = {
-      ...(builder ? { hierarchies: builder } : {}),
-      ...tracer,
-      maxDepth,
-      background,
-      ...take.options,
-      camera: this.#host.camera(aspect),
-    };
+    const { device, tracer: shown } = this;
+    if (!this.#source || !device || !this.#current(shown)) return undefined;
+    const take = this.#source(shown);
+    const options = { ...this.#tracerOptions(), ...take.options, camera: this.#host.camera(aspect) };
     return { ready: take.ready, create: (more) => PathTracer.create(device, take.scene, { ...options, ...more }) };
   }
 
   /** Edits that wait for the next frame. */
   get waiting(): number {
-    return this.#edits.size;
+    return this.#loop.waiting;
   }
 
   /** Adds no samples while it is set, but for one after each change. */
   get paused(): boolean {
-    return this.#paused;
+    return this.#loop.paused;
   }
 
   set paused(paused: boolean) {
-    this.#paused = paused;
-    this.#stir();
+    this.#loop.paused = paused;
   }
 
   /**
@@ -238,8 +180,8 @@ export class Engine {
     this.#failed = false;
     try {
       await untilAborted(this.connect(), signal);
-      this.#edits.clear(new DOMException('another scene was shown', 'AbortError'));
-      return await this.#prepare(() => source(undefined), source, options);
+      this.#loop.clearEdits(abortError('another scene was shown'));
+      return await this.#prepare(source, options);
     } catch (error) {
       this.#keepFormer(failed);
       throw error;
@@ -252,7 +194,7 @@ export class Engine {
     apply: (tracer: PathTracer, merged: object) => void | Promise<void>,
     value: object = {},
   ): Promise<void> {
-    const applied = this.#edits.add(key, (merged) => (this.#tracer ? apply(this.#tracer, merged) : undefined), value);
+    const applied = this.#loop.edit(key, apply, value);
     this.#tryAgain();
     this.touch();
     return applied;
@@ -260,17 +202,12 @@ export class Engine {
 
   /** The camera, or what it looks at, has changed: the preview takes over for a while. */
   touch(): void {
-    this.#dirtyCamera = true;
-    this.#settle = performance.now() + this.settings.settleMs;
-    this.#stir();
+    this.#loop.touch();
   }
 
   /** Sizes of the image and of the canvas, pixels. */
   resize(film: Size, canvas: Size): void {
-    if (sameSize(film, this.#film) && sameSize(canvas, this.#canvasSize)) return;
-    if (!sameSize(film, this.#film)) this.#films.forget();
-    this.#film = film;
-    this.#canvasSize = canvas;
+    if (!this.#loop.resize(film, canvas)) return;
     this.#tryAgain();
     this.touch();
   }
@@ -293,21 +230,13 @@ export class Engine {
 
   /** Starts the present work again, with settings that have changed. */
   restart(): void {
-    this.#done = false;
     this.#tryAgain();
-    this.#stir();
+    this.#loop.restart();
   }
 
   /** Draws with the next frame of the screen. */
   redraw(): void {
-    cancelAnimationFrame(this.#frame);
-    this.#frame = requestAnimationFrame(() => {
-      try {
-        this.#draw();
-      } catch (error) {
-        this.#failUnlessLost(error, this.#tracer);
-      }
-    });
+    this.#loop.redraw();
   }
 
   /** Tries again after a failure. */
@@ -315,23 +244,26 @@ export class Engine {
     if (this.#destroyed) return;
     this.#failed = false;
     if (!this.#connection.retry()) this.#keepFormer(false);
-    this.#stir();
+    this.#loop.stir();
   }
 
   /** Frees everything, the device too. Idempotent. */
   destroy(): void {
     if (this.#destroyed) return;
     this.#destroyed = true;
-    this.#stir();
     this.#preparation.destroy();
-    this.#edits.clear(new DOMException('the viewer was destroyed', 'AbortError'));
-    cancelAnimationFrame(this.#frame);
-    this.#visibility.destroy();
-    this.#tracer?.destroy();
+    this.#loop.destroy();
     this.#connection.destroy();
     this.#hierarchies?.destroy();
-    this.#tracer = this.#tracerDevice = undefined;
-    this.#setState('destroyed');
+    this.#tracerDevice = undefined;
+    this.#loop.state = 'destroyed';
+  }
+
+  /** Options of each tracer. */
+  #tracerOptions(): Partial<PathTracerOptions> {
+    const { maxDepth, background, tracer } = this.settings;
+    const builder = this.#builder;
+    return { ...(builder ? { hierarchies: builder } : {}), ...tracer, maxDepth, background };
   }
 
   get #builder(): RememberingHierarchies | undefined {
@@ -339,336 +271,94 @@ export class Engine {
     return this.#hierarchies;
   }
 
+  /** @param former The tracer whose device was lost, and whose samples were kept. */
   async #prepare(
-    make: () => Take,
     source: Source,
-    { signal, onProgress, onTaken }: ShowOptions = {},
-    recovers = false,
+    { signal, onProgress, onTaken }: ShowOptions,
+    former?: PathTracer,
   ): Promise<PathTracer> {
-    if (!recovers) this.#films.forget();
-    const options = (wanted: AbortSignal) => {
-      const [width, height] = this.#full;
-      const { maxDepth, background, tracer: more } = this.settings;
+    if (!former) this.#loop.tryFullSize();
+    const options = (either: AbortSignal) => {
+      const [width, height] = this.imageSize;
       return {
-        hierarchies: this.#builder,
-        ...more,
+        ...this.#tracerOptions(),
         width,
         height,
-        maxDepth,
-        background,
-        signal: wanted,
-        onProgress: (progress: PrepareProgress) => void (wanted.aborted || onProgress?.(progress)),
+        signal: either,
+        onProgress: (progress: PrepareProgress) => void (either.aborted || onProgress?.(progress)),
       };
     };
     let restored = false;
     const restoring = (): Take => {
-      const take = make();
+      const take = source(former);
       const ready = async (tracer: PathTracer) => {
         await take.ready?.(tracer);
-        this.#films.adopt(tracer, this.settings.maxDepth);
-        restored = recovers && (await this.#restore(tracer));
+        this.#loop.adopt(tracer);
+        restored = !!former && (await this.#loop.restore(tracer));
       };
       return { ...take, ready };
     };
     const prepared = this.#preparation.run(
-      (wanted) => makeTracer(this.#connection, restoring, () => options(wanted)),
+      (either) => makeTracer(this.#connection, restoring, () => options(either)),
       ({ tracer, device }) => {
-        // Who asks for the canvas's size before the first image is drawn gets the one that it will have.
-        if (!this.#tracer) this.#connection.display?.resize(this.#canvasSize);
-        this.#tracer?.destroy();
-        this.#tracer = tracer;
         this.#tracerDevice = device;
         this.#source = source;
         this.#failed = false;
-        if (restored) {
-          this.#keptSamples = tracer.samples;
-          this.#fresh = true;
-          this.#done = false;
-          this.redraw();
-          return;
-        }
-        if (!recovers) this.#lostSamples = 0;
-        this.#restarted();
+        if (restored) this.#keptSamples = tracer.samples;
+        else if (!former) this.#lostSamples = 0;
+        this.#loop.show(tracer, restored);
+        if (restored) return;
         onTaken?.();
         this.touch();
       },
       signal,
     );
-    this.#stir();
+    this.#loop.stir();
     return (await prepared).tracer;
   }
 
   /** The scene as it was edited, on a device that came in place of a lost one. */
   async #rebuild(): Promise<void> {
-    const [former, source] = [this.#tracer, this.#source];
+    const { tracer: former } = this;
+    const source = this.#source;
     // A scene that is being prepared takes the new device by itself.
-    if (former && source && !this.#preparation.running) await this.#prepare(() => source(former), source, {}, true);
-  }
-
-  /** Puts the samples that were kept into the film of a new tracer. @returns Whether they are in it. */
-  async #restore(tracer: PathTracer): Promise<boolean> {
-    const { kept } = this.#keeper;
-    // A view or a scene that has changed since is another image.
-    if (!kept || this.#moving()) return false;
-    try {
-      await tracer.restoreFilm(kept);
-    } catch {
-      return false;
-    }
-    return !this.#moving() && kept === this.#keeper.kept;
+    if (former && source && !this.#preparation.running) await this.#prepare(source, {}, former);
   }
 
   /** What was to replace the scene did not come: the former one stays, on the device that there is now. */
   #keepFormer(failed: boolean): void {
     const { device, recovery } = this.#connection;
-    if (this.#destroyed || !this.#tracer || recovery || this.#preparation.running) return;
+    if (this.#destroyed || !this.tracer || recovery || this.#preparation.running) return;
     if (!device) this.#failed = true;
     else if (this.#tracerDevice !== device)
       this.#rebuild().catch((error: unknown) => isAbort(error) || this.#fail(error));
     else this.#failed = failed;
-    this.#stir();
+    this.#loop.stir();
   }
 
   /** A failure may have passed with what has changed. One for want of a device has not. */
   #tryAgain(): void {
-    if (this.#failed && this.#connection.device && this.#connection.device === this.#tracerDevice) this.#failed = false;
+    if (this.device && this.device === this.#tracerDevice) this.#failed = false;
   }
 
   #fail(error: unknown): void {
     this.#failed = true;
-    this.#setState('failed');
+    this.#loop.state = 'failed';
     this.#host.error(error, () => this.retry());
-    this.#stir();
-  }
-
-  /** What happens to a tracer whose device was lost is no failure: another one takes its place. */
-  #failUnlessLost(error: unknown, tracer: PathTracer | undefined): void {
-    if (this.#current(tracer)) this.#fail(error);
+    this.#loop.stir();
   }
 
   /** Whether a tracer is the one that is shown, on a device that is alive. */
   #current(tracer: PathTracer | undefined): boolean {
     const { device, recovery } = this.#connection;
-    return (
-      !this.#destroyed && tracer === this.#tracer && device !== undefined && device === this.#tracerDevice && !recovery
-    );
+    return tracer !== undefined && tracer === this.tracer && !!device && device === this.#tracerDevice && !recovery;
   }
 
-  /** Adds samples until the viewer is destroyed; sleeps where there is nothing to do. */
-  async #run(): Promise<void> {
-    while (!this.#destroyed) {
-      const idle = this.#idleState();
-      if (idle || !this.#tracer) {
-        // Before the state is emitted: a listener may request work at once.
-        const woken = new Promise<void>((resolve) => (this.#wake = resolve));
-        this.#setState(idle ?? 'empty');
-        const retry =
-          idle === 'done' && this.#smaller
-            ? setTimeout(() => ((this.#growing = true), this.#stir()), this.#films.retryMs)
-            : undefined;
-        await woken;
-        clearTimeout(retry);
-        this.#lastStep = performance.now();
-        continue;
-      }
-      const tracer = this.#tracer;
-      this.#interrupt = new AbortController();
-      try {
-        if (this.#moving()) await this.#previewFrame(tracer);
-        else if (this.#growing) await this.#grow(tracer);
-        else await this.#refine(tracer);
-      } catch (error) {
-        // A loss of the device shows in what follows; it is handled where the device reports it.
-        await soon();
-        await soon();
-        this.#failUnlessLost(error, tracer);
-      }
-    }
-  }
-
-  /** Why nothing is to be computed, or undefined. */
-  #idleState(): ViewerState | undefined {
+  /** Why nothing can be rendered at present, or undefined. */
+  #blocked(): ViewerState | undefined {
     if (this.#failed) return 'failed';
-    if (this.#connection.recovery || (this.#tracer && !this.#connection.device)) return 'recovering';
+    if (this.#connection.recovery || (this.tracer && !this.device)) return 'recovering';
     if (this.#preparation.running) return 'loading';
-    if (!this.#tracer) return 'empty';
-    if (!this.#visibility.visible) return 'hidden';
-    if (this.#moving()) return undefined;
-    if (this.#paused && this.current) return 'paused';
-    return this.#done && !this.#growing ? 'done' : undefined;
-  }
-
-  #moving(): boolean {
-    return this.#dirtyCamera || this.#edits.size > 0 || this.#host.moving() || performance.now() < this.#settle;
-  }
-
-  /** An image that is as small as it must be to keep up with the controls. */
-  async #previewFrame(tracer: PathTracer): Promise<void> {
-    // In step with the screen where the GPU keeps up; the first frame, and those of a slow GPU, do not wait for it as
-    // well.
-    await (performance.now() - this.#lastPreview < SCREEN_MS ? nextFrame() : soon());
-    if (tracer !== this.#tracer || this.#destroyed || !this.#visibility.visible) return;
-    this.#setState('moving');
-    const now = (this.#lastPreview = performance.now());
-    const stepped = this.#host.step(Math.max(0, now - this.#lastStep) / 1000);
-    this.#lastStep = now;
-    const full = this.#full;
-    const plan = this.#preview.plan(full[0] * full[1]);
-    const changed = stepped || this.#dirtyCamera || this.#edits.size > 0;
-    if (stepped || this.#dirtyCamera) {
-      // What stands still keeps its size: samples gather.
-      await this.#fit(
-        tracer,
-        full,
-        plan.divisor > 1 ? Math.min(this.settings.previewDepth, this.settings.maxDepth) : this.settings.maxDepth,
-        1 / plan.divisor,
-      );
-      if (tracer !== this.#tracer || this.#destroyed) return;
-      this.#dirtyCamera = false;
-      tracer
-        .setCamera(this.#host.camera(this.#film[0] / this.#film[1]))
-        .catch((error: unknown) => this.#current(tracer) && this.#host.error(error));
-      this.#settle = now + this.settings.settleMs;
-    }
-    this.#edits.apply(() => this.#edited());
-    if (changed) this.#restarted();
-    const before = tracer.samples;
-    // In its full size it is the image already, and that gets the requested samples.
-    const max = sameSize([tracer.width, tracer.height], this.#full) ? this.#goal : Infinity;
-    if (before >= Math.min(PREVIEW_SAMPLES, max) && this.#fresh) return;
-    const started = performance.now();
-    let samples = before;
-    for await (const progress of tracer.render({
-      samples: Math.min(before + plan.samples, Math.max(max, before)),
-      maxSubmitMs: PREVIEW_SUBMIT_MS,
-    })) {
-      ({ samples } = progress);
-      if (!this.#visibility.visible) break;
-    }
-    // A film that an edit has restarted meanwhile has none.
-    if (tracer !== this.#tracer || this.#destroyed || tracer.samples === 0) return;
-    const milliseconds = performance.now() - started;
-    if (samples > before) this.#preview.measured(tracer.width * tracer.height, samples - before, milliseconds);
-    this.#fresh = true;
-    this.#draw(milliseconds);
-  }
-
-  /** The image in full, until it is done or something moves. */
-  async #refine(tracer: PathTracer): Promise<void> {
-    const { samples, noise, maxSubmitMs, maxDepth } = this.settings;
-    this.#setState('rendering');
-    const full = this.#full;
-    if (this.#fresh && !sameSize([tracer.width, tracer.height], full))
-      void this.#connection.display?.keep(
-        { buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] },
-        tracer.samples,
-        full,
-      );
-    if (await this.#fit(tracer, full, maxDepth)) this.#fresh = false;
-    // Another size may be wanted by now, or is all that there is memory for.
-    if (
-      tracer !== this.#tracer ||
-      this.#destroyed ||
-      this.#moving() ||
-      !sameSize([tracer.width, tracer.height], this.#full)
-    )
-      return;
-    const { signal } = this.#interrupt;
-    for await (const progress of tracer.render({
-      samples: this.#goal,
-      signal,
-      maxSubmitMs,
-      ...(noise === undefined || this.#paused ? {} : { noise }),
-    })) {
-      if (tracer !== this.#tracer) return;
-      this.#fresh = true;
-      this.#host.sample({ ...progress, targetSamples: samples });
-      if (this.settings.keepSamples !== false) this.#keeper.offer(tracer, false);
-      this.redraw();
-      if (this.#moving()) return;
-    }
-    if (tracer !== this.#tracer || signal.aborted || this.#moving() || this.#destroyed || this.#paused) return;
-    // Ended by kernels that came late and restarted the film: once more.
-    if (!this.#fresh && tracer.samples === 0) return;
-    this.#fresh = true;
-    this.#done = true;
-    if (this.settings.keepSamples !== false) this.#keeper.offer(tracer, true);
-    this.#connection.display?.forget();
-    this.redraw();
-    this.#host.converged(tracer.samples, performance.now() - this.#changed);
-  }
-
-  /**
-   * Gives the film a size; where the GPU has no memory for it, the film keeps what it has. @returns Whether it was
-   * restarted.
-   */
-  async #fit(tracer: PathTracer, size: Size, depth: number, scale = 1): Promise<boolean> {
-    try {
-      const restarted = await this.#films.fit(tracer, size, depth, scale);
-      if (scale === 1 && sameSize(size, this.#film)) this.#smaller = false;
-      return restarted;
-    } catch (error) {
-      // A lost device refuses nothing: its successor may have memory for all of it.
-      if (!this.#current(tracer) || (error as { code?: unknown }).code === 'renderer/device-lost') throw error;
-      this.#films.refuse(tracer, scaledSize(size, scale));
-      // Once: smaller ones are tried until one fits.
-      if (!this.#smaller) this.#host.error(error);
-      this.#smaller = true;
-      return false;
-    }
-  }
-
-  /** Tries the whole size again, while an image that had to be smaller is shown. */
-  async #grow(tracer: PathTracer): Promise<void> {
-    this.#growing = false;
-    if (!this.#smaller) return;
-    const { display } = this.#connection;
-    display?.keep({ buffer: tracer.beautyBuffer, size: [tracer.width, tracer.height] }, tracer.samples, this.#film);
-    if (await this.#films.grow(tracer, this.#film)) this.#smaller = this.#fresh = this.#done = false;
-    else display?.forget();
-  }
-
-  /** Samples of the image in full. */
-  get #goal(): number {
-    return this.#paused ? 1 : this.settings.samples;
-  }
-
-  /** An edit has taken effect, perhaps by kernels that came late and restarted the film. */
-  #edited(): void {
-    this.#restarted();
-    this.#settle = performance.now() + this.settings.settleMs;
-    this.#stir();
-  }
-
-  #restarted(): void {
-    this.#fresh = false;
-    this.#done = false;
-    this.#keeper.clear();
-    this.#changed = performance.now();
-    this.#connection.display?.forget();
-    this.#host.restarted?.();
-  }
-
-  #stir(): void {
-    this.#interrupt.abort();
-    this.#wake();
-  }
-
-  #setState(state: ViewerState): void {
-    if (state === this.#state || (this.#destroyed && state !== 'destroyed')) return;
-    this.#state = state;
-    this.#host.state(state);
-  }
-
-  #draw(milliseconds = 0): void {
-    const [tracer, { device, display }] = [this.#tracer, this.#connection];
-    if (!tracer || !display || !this.#fresh || !device) return;
-    const size: Size = [tracer.width, tracer.height];
-    const preview = !sameSize(size, this.#full);
-    if (preview) display.forget();
-    const share = display.kept > 0 ? previewShare(tracer.samples, display.kept, this.settings.samples) : 0;
-    if (share === 0 && display.kept > 0) display.forget();
-    display.draw({ buffer: tracer.beautyBuffer, size }, this.#canvasSize, share);
-    this.#host.drawn(this.#state === 'moving', milliseconds, size);
+    return this.tracer ? undefined : 'empty';
   }
 }

@@ -9,6 +9,3 @@ export class ViewerError extends GlanzError {}
 
 /** The error of a viewer that has been destroyed. */
 export const destroyed = (): ViewerError => new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
-
-/** Whether an operation ended because somebody wanted it to. */
-export const isAbort = (error: unknown): boolean => (error as { name?: unknown } | null)?.name === 'AbortError';

@@ -1,6 +1,7 @@
 import type { GltfDecoders, GltfProgress } from '@glanz/gltf';
 import { GlanzError, inSlices, type CompressedFormat, type Environment, type Scene } from '@glanz/scene';
-import { isAbort, ViewerError } from './errors';
+import { isAbort } from './aborts';
+import { ViewerError } from './errors';
 
 /**
  * A model: an address, a file, several files or a folder of them (glTF, GLB, OBJ with MTL, STL), or a scene.
@@ -135,38 +136,36 @@ export async function loadEnvironment(
 ): Promise<Environment | undefined> {
   if (source === 'scene' || source === 'none') return undefined;
   if (source === 'studio') return inSlices((await import('@glanz/scene/studio')).studioSteps(), { signal });
-  if (typeof source === 'object' && source !== null && !(source instanceof Blob) && !(source instanceof URL)) {
-    if (source.type === 'latlong' || source.type === 'constant') return source;
+  let bytes;
+  if (typeof source === 'string' || source instanceof URL) {
+    bytes = await fetchBytes(addressOf(source, 'viewer/environment'), signal);
+    if (!bytes)
+      throw new ViewerError(
+        'viewer/environment',
+        `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`,
+      );
+  } else if (source instanceof Blob) bytes = await bytesOf(source);
+  else {
+    const type: unknown = (source as Environment | null)?.type;
+    if (type === 'latlong' || type === 'constant') return source;
     throw new ViewerError(
       'viewer/environment',
-      `An environment has the type latlong or constant, not ${JSON.stringify((source as { type?: unknown }).type)?.slice(0, 40)}.`,
+      `An environment is a name, an address, a file, or data of the type latlong or constant, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
     );
   }
-  if ((typeof source !== 'string' && typeof source !== 'object') || source === null)
-    throw new ViewerError(
-      'viewer/environment',
-      `An environment is a name, an address, a file or data, not ${String(source)}.`,
-    );
-  const bytes =
-    source instanceof Blob ? await bytesOf(source) : await fetchBytes(addressOf(source, 'viewer/environment'), signal);
-  if (!bytes)
-    throw new ViewerError(
-      'viewer/environment',
-      `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`,
-    );
   const { decodeEnvironment } = await import('@glanz/image/environment');
   signal?.throwIfAborted();
   const { width, height, data } = decodeEnvironment(bytes);
   return { type: 'latlong', width, height, data };
 }
 
-const bytesOf = async (file: Blob) => new Uint8Array(await file.arrayBuffer());
+const bytesOf = async (body: Blob | Response) => new Uint8Array(await body.arrayBuffer());
 
 /** The bytes at an address, or `undefined` where there are none. */
 async function fetchBytes(url: URL, signal: AbortSignal | undefined): Promise<Uint8Array<ArrayBuffer> | undefined> {
   try {
     const response = await fetch(url, signal ? { signal } : {});
-    return response.ok ? new Uint8Array(await response.arrayBuffer()) : undefined;
+    return response.ok ? await bytesOf(response) : undefined;
   } catch {
     signal?.throwIfAborted();
     return undefined;

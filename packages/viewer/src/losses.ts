@@ -17,7 +17,7 @@ export class Losses {
     if (this.#times.length > MAX_LOSSES)
       throw new ViewerError(
         'viewer/device-lost',
-        'The GPU was lost again and again: close other programs that use it, or show a smaller model or image.',
+        'The GPU was lost again and again. Show a smaller model or image, or close other programs that use the GPU.',
       );
     await new Promise((resolve) => setTimeout(resolve, 200 * this.#times.length ** 2));
   }

@@ -1,7 +1,8 @@
-import { PathTracer, type HierarchyBuilder, type PathTracerOptions } from '@glanz/renderer';
+import { PathTracer, type PathTracerOptions } from '@glanz/renderer';
 import type { Connection } from './connection';
 import type { Take } from './engine-host';
-import { isAbort, ViewerError } from './errors';
+import { isAbort } from './aborts';
+import { ViewerError } from './errors';
 import { soon } from './visibility';
 
 /** A tracer and the device that it is on. */
@@ -20,23 +21,18 @@ export interface MadeTracer {
 export async function makeTracer(
   connection: Connection,
   source: () => Take,
-  optionsNow: () => Omit<PathTracerOptions, 'hierarchies'> & { readonly hierarchies: HierarchyBuilder | undefined },
+  optionsNow: () => PathTracerOptions,
 ): Promise<MadeTracer> {
   for (;;) {
     await connection.recovery;
     const { device } = connection;
     if (!device) throw new ViewerError('viewer/device-lost', 'The GPU was lost and has not come back.');
     const { scene, camera, options, ready } = source();
-    const { hierarchies, ...others } = optionsNow();
+    const more = optionsNow();
     const lost = () => device !== connection.device || connection.recovery !== undefined;
     let tracer: PathTracer | undefined;
     try {
-      tracer = await PathTracer.create(device, scene, {
-        ...others,
-        ...(hierarchies ? { hierarchies } : {}),
-        ...options,
-        camera,
-      });
+      tracer = await PathTracer.create(device, scene, { ...more, ...options, camera });
       await ready?.(tracer);
       if (!lost()) return { tracer, device };
       tracer.destroy();
@@ -44,7 +40,7 @@ export async function makeTracer(
       tracer?.destroy();
       // The news of a loss may come later than its consequences.
       await soon();
-      if (isAbort(error) || others.signal?.aborted || !lost()) throw error;
+      if (isAbort(error) || more.signal?.aborted || !lost()) throw error;
     }
   }
 }

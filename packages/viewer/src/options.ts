@@ -111,6 +111,16 @@ export interface ViewerOptions {
   readonly signal?: AbortSignal;
 }
 
+/** Options for `Viewer.load`. */
+export interface LoadOptions {
+  /** Aborts the load; it rejects with the signal's reason, and the former model stays. */
+  readonly signal?: AbortSignal;
+  /** The first view; default that of {@link ViewerOptions.camera}. `keep` stays where the user is. */
+  readonly camera?: ViewerOptions['camera'] | 'keep';
+  /** Look of a model that has several. Default: that of {@link ViewerOptions.variant} where the model has it. */
+  readonly variant?: string;
+}
+
 /** See {@link ViewerOptions.preview}. */
 export interface PreviewOptions {
   /** Milliseconds that a frame of it may take. Default 12, which leaves room at 60 frames a second. */

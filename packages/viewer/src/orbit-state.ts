@@ -24,3 +24,16 @@ export interface OrbitLimits {
   /** Metres. */
   readonly radius?: readonly [number, number];
 }
+
+/** Three numbers of a matrix in columns, from one that begins at `k`. */
+export const column = (m: ArrayLike<number>, k: number): Vector => [
+  m[k] as number,
+  m[k + 1] as number,
+  m[k + 2] as number,
+];
+
+/** The vector with a length of 1; one without length stays. */
+export function unit([x, y, z]: Vector): Vector {
+  const length = Math.hypot(x, y, z) || 1;
+  return [x / length, y / length, z / length];
+}

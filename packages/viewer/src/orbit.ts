@@ -10,7 +10,7 @@ import {
   checkedSetting,
   checkedZoom,
 } from './checks';
-import type { Orbit, OrbitLimits, Vector } from './orbit-state';
+import { column, unit, type Orbit, type OrbitLimits, type Vector } from './orbit-state';
 
 export type { Orbit, OrbitLimits, Vector } from './orbit-state';
 
@@ -305,9 +305,8 @@ export class OrbitRig {
 
   #poseOf(camera: Camera): Pose {
     const m = camera.transform;
-    const eye: Vector = [m[12] as number, m[13] as number, m[14] as number];
-    const length = Math.hypot(m[8] as number, m[9] as number, m[10] as number) || 1;
-    const back: Vector = [(m[8] as number) / length, (m[9] as number) / length, (m[10] as number) / length];
+    const eye = column(m, 12);
+    const back = unit(column(m, 8));
     const ahead = dot(subtract([0, 0, 0], eye, this.#center), back);
     const away = ahead > 0.05 * this.#radius ? ahead : this.#radius;
     return {

@@ -1,12 +1,13 @@
 import { isSoftware, warmUp, type HierarchyBuilder, type PathTracer } from '@glanz/renderer';
-import { ViewerError } from './errors';
 import { untilAborted } from '@glanz/scene';
+import { destroyed } from './errors';
+import { LatestTask } from './latest-task';
 
 /** The making of a scene's tracer: one at a time, the last one asked for. */
 export class Preparation {
   readonly #ended: () => void;
   readonly #warming = new AbortController();
-  #control: AbortController | undefined;
+  readonly #task = new LatestTask();
   #destroyed = false;
 
   /** @param ended Called when a tracer is ready, or has failed, and no other is being made. */
@@ -16,7 +17,7 @@ export class Preparation {
 
   /** Whether a tracer is being made. */
   get running(): boolean {
-    return this.#control !== undefined;
+    return this.#task.running;
   }
 
   /**
@@ -45,19 +46,15 @@ export class Preparation {
     signal?: AbortSignal,
   ): Promise<T> {
     this.#warming.abort();
-    this.#control?.abort(new DOMException('another scene was asked for', 'AbortError'));
-    const control = (this.#control = new AbortController());
-    const either = signal ? AbortSignal.any([signal, control.signal]) : control.signal;
     try {
-      if (this.#destroyed) throw new ViewerError('viewer/destroyed', 'This viewer has been destroyed.');
-      const made = await untilAborted(make(either), either, ({ tracer }) => tracer.destroy());
-      take(made);
-      return made;
+      return await this.#task.run('another scene was requested', signal, async (either) => {
+        if (this.#destroyed) throw destroyed();
+        const made = await untilAborted(make(either), either, ({ tracer }) => tracer.destroy());
+        take(made);
+        return made;
+      });
     } finally {
-      if (this.#control === control) {
-        this.#control = undefined;
-        this.#ended();
-      }
+      if (!this.running) this.#ended();
     }
   }
 
@@ -65,6 +62,6 @@ export class Preparation {
   destroy(): void {
     this.#destroyed = true;
     this.#warming.abort();
-    this.#control?.abort(new DOMException('the viewer was destroyed', 'AbortError'));
+    this.#task.abort();
   }
 }

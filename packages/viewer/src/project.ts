@@ -1,6 +1,6 @@
 import type { Camera } from '@glanz/scene';
 import { dot, subtract } from 'gl-matrix/esm/vec3.js';
-import type { Vector } from './orbit-state';
+import { column, unit, type Vector } from './orbit-state';
 
 /** Where a point of the world falls on the image. */
 export interface Projection {
@@ -21,13 +21,9 @@ export interface Projection {
  */
 export function project(camera: Camera, aspect: number, point: Vector): Projection {
   const m = camera.transform;
-  const unit = (k: number): Vector => {
-    const v: Vector = [m[k] as number, m[k + 1] as number, m[k + 2] as number];
-    const length = Math.hypot(...v) || 1;
-    return [v[0] / length, v[1] / length, v[2] / length];
-  };
-  const to = subtract([0, 0, 0], point, [m[12] as number, m[13] as number, m[14] as number]);
-  const [right, up, ahead] = [dot(to, unit(0)), dot(to, unit(4)), -dot(to, unit(8))];
+  const to = subtract([0, 0, 0], point, column(m, 12));
+  const along = (k: number) => dot(to, unit(column(m, k)));
+  const [right, up, ahead] = [along(0), along(4), -along(8)];
   const distance = Math.hypot(...to);
   if (camera.type === 'panorama') {
     const x = Math.atan2(right, ahead) / (2 * Math.PI) + 0.5;

@@ -2,12 +2,14 @@ import type { BlobOptions } from './options';
 import type { PathTracer } from '@glanz/renderer';
 import { MAX_ADAPTIVE_SAMPLES } from '@glanz/renderer/options';
 import { inSlices } from '@glanz/scene';
+import type { ToneMap } from '@glanz/tonemap';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap/tone-map';
 import type { checkedOption, checkedSetting } from './checks';
+import type { Emitter } from './emitter';
 import type { Engine } from './engine';
 import { ViewerError } from './errors';
 import { imageProgress, renderImage } from './render-image';
-import type { ViewerCamera } from './viewer-camera';
+import type { ViewerEvents, ViewerState } from './events';
 
 /** Pixels that are tone-mapped in one step, about a millisecond. */
 const STEP = 8192;
@@ -16,6 +18,18 @@ const STEP = 8192;
 interface Checks {
   readonly checkedOption: typeof checkedOption;
   readonly checkedSetting: typeof checkedSetting;
+}
+
+/** What is read of a viewer. */
+interface ShownImage extends Pick<Emitter<ViewerEvents>, 'on'> {
+  readonly canvas: HTMLCanvasElement;
+  readonly state: ViewerState;
+  readonly samples: number;
+  readonly noise: number | undefined;
+  readonly background: 'environment' | 'transparent';
+  readonly exposure: number;
+  readonly toneMap: ToneMap;
+  readonly autoRotate: number;
 }
 
 /** What an image is to be, checked. */
@@ -29,7 +43,7 @@ interface Wanted {
 }
 
 /** @throws {ViewerError} `viewer/option` */
-function checked(viewer: ViewerCamera, options: BlobOptions, checks: Checks): Wanted {
+function checked(viewer: ShownImage, options: BlobOptions, checks: Checks): Wanted {
   const { width, height, samples, noise, background } = options;
   const { checkedOption, checkedSetting } = checks;
   for (const [name, value] of [
@@ -63,7 +77,7 @@ function checked(viewer: ViewerCamera, options: BlobOptions, checks: Checks): Wa
  * separately.
  */
 async function screenImage(
-  viewer: ViewerCamera,
+  viewer: ShownImage,
   engine: Engine,
   wanted: Wanted,
   { onProgress }: BlobOptions,
@@ -192,7 +206,7 @@ async function fileOf(
 
 /** See `Viewer.toBlob`. */
 export async function imageBlob(
-  viewer: ViewerCamera,
+  viewer: ShownImage,
   engine: Engine,
   options: BlobOptions,
   checks: Checks,

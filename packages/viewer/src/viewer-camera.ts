@@ -1,51 +1,61 @@
 import type { PickResult } from '@glanz/renderer';
-import { frameCamera, frameCameraSteps, type Camera, type Scene, type SceneBounds } from '@glanz/scene';
+import { finish, frameCamera, frameCameraSteps, type Camera, type Scene, type SceneBounds } from '@glanz/scene';
 import {
+  checkedAmount,
   checkedCamera,
   checkedDirection,
-  checkedAmount,
   checkedFieldOfView,
   checkedLimits,
   checkedSetting,
+  sceneOf,
 } from './checks';
 import { controlCamera, type ControlOptions } from './controls';
-import type { EngineHost } from './engine';
+import type { Emitter } from './emitter';
+import type { Engine } from './engine';
 import { ViewerError } from './errors';
-import type { CameraChangeSource } from './events';
+import type { CameraChangeSource, ViewerEvents } from './events';
 import { fitCamera } from './fit-camera';
 import type { ViewerOptions } from './options';
 import { OrbitRig } from './orbit';
-import type { Orbit, OrbitLimits, Vector } from './orbit-state';
-import { project, type Projection } from './project';
-import { ViewerSettings } from './viewer-settings';
+import { column, type Orbit, type OrbitLimits, type Vector } from './orbit-state';
 
-const calm = () => typeof matchMedia === 'function' && matchMedia('(prefers-reduced-motion: reduce)').matches;
+const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-/** The camera of a {@link Viewer} and its controls. */
-export abstract class ViewerCamera extends ViewerSettings {
-  #autoRotateDelay: number;
+/** How the camera moves: at once or, by default, smoothly. */
+interface Move {
+  readonly immediate?: boolean;
+}
+
+/** The camera of a viewer: where it is and goes, and the controls that move it. */
+export class ViewerCamera {
+  readonly #canvas: HTMLCanvasElement;
+  readonly #events: Emitter<ViewerEvents>;
+  readonly #engine: Engine;
+  /** See `ViewerOptions.autoRotate`. */
+  autoRotate: number;
+  /** See `ViewerOptions.autoRotateDelay`. */
+  autoRotateDelay: number;
   #damping: number;
+  #limits: OrbitLimits;
   #controls: boolean | ControlOptions;
   #stopControls: () => void = () => undefined;
   #rig: OrbitRig | undefined;
   #home: Camera | undefined;
-  #autoRotate: number;
-  #limits: OrbitLimits;
-  #rested = 0;
-  #cameraSource: CameraChangeSource = 'api';
+  #lastMove = 0;
+  #source: CameraChangeSource = 'api';
 
-  /** @internal Use {@link createViewer}. */
-  constructor(canvas: HTMLCanvasElement, options: ViewerOptions) {
-    super(canvas, options);
-    this.#autoRotate = options.autoRotate ?? 0;
-    this.#autoRotateDelay = options.autoRotateDelay ?? 3;
+  constructor(canvas: HTMLCanvasElement, options: ViewerOptions, events: Emitter<ViewerEvents>, engine: Engine) {
+    this.#canvas = canvas;
+    this.#events = events;
+    this.#engine = engine;
+    this.autoRotate = options.autoRotate ?? 0;
+    this.autoRotateDelay = options.autoRotateDelay ?? 3;
     this.#limits = checkedLimits(options.orbitLimits ?? {});
-    this.#damping = calm() ? 0 : (options.damping ?? 0.06);
+    this.#damping = prefersReducedMotion() ? 0 : (options.damping ?? 0.06);
     this.#controls = options.controls ?? true;
     this.#applyControls();
   }
 
-  /** See {@link ViewerOptions.controls}. */
   get controls(): boolean | ControlOptions {
     return this.#controls;
   }
@@ -55,84 +65,56 @@ export abstract class ViewerCamera extends ViewerSettings {
     this.#applyControls();
   }
 
-  /** See {@link ViewerOptions.autoRotate}. */
-  get autoRotate(): number {
-    return this.#autoRotate;
-  }
-
-  set autoRotate(speed: number) {
-    this.#autoRotate = checkedSetting('autoRotate', speed);
-    if (this.#rig) this.engine.touch();
-  }
-
-  /** See {@link ViewerOptions.autoRotateDelay}. */
-  get autoRotateDelay(): number {
-    return this.#autoRotateDelay;
-  }
-
-  set autoRotateDelay(seconds: number) {
-    this.#autoRotateDelay = checkedSetting('autoRotateDelay', seconds);
-  }
-
-  /** The camera that the image is, or is being, taken with. `undefined` before there is a scene. */
-  get camera(): Camera | undefined {
-    return this.#rig && fitCamera(this.#rig.camera(), this.aspect);
-  }
-
-  /**
-   * Goes to where a camera stands, smoothly unless `immediate`. The user turns about what lies ahead of it.
-   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a camera that the scene does not have, or that nothing
-   * can be seen with. The view stays as it was then.
-   */
-  setCamera(camera: Camera | number | string, options: { readonly immediate?: boolean } = {}): void {
-    const scene = this.theScene();
-    this.#rig?.setCamera(
-      typeof camera === 'number' || typeof camera === 'string' ? this.#chooseCamera(scene, camera) : camera,
-    );
-    this.#moved(options.immediate);
-  }
-
-  /** Where the camera goes around what it looks at. `undefined` before there is a scene. */
-  get orbit(): Orbit | undefined {
-    return this.#rig?.goal;
-  }
-
-  /**
-   * Goes to an orbit, smoothly unless `immediate`; what is left out stays as it is.
-   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for NaN, infinities, other types, and a radius that is not
-   * above 0. The view stays as it was then.
-   */
-  setOrbit(orbit: Partial<Orbit>, options: { readonly immediate?: boolean } = {}): void {
-    this.theScene();
-    this.#rig?.setOrbit(orbit);
-    this.#moved(options.immediate);
-  }
-
-  /** See {@link ViewerOptions.damping}. */
   get damping(): number {
     return this.#damping;
   }
 
   set damping(seconds: number) {
     checkedSetting('damping', seconds);
-    if (calm()) return;
+    if (prefersReducedMotion()) return;
     this.#damping = seconds;
     if (this.#rig) this.#rig.damping = seconds;
   }
 
-  /** See {@link ViewerOptions.orbitLimits}. */
-  get orbitLimits(): OrbitLimits {
+  get limits(): OrbitLimits {
     return this.#limits;
   }
 
-  set orbitLimits(limits: OrbitLimits) {
+  set limits(limits: OrbitLimits) {
     this.#limits = checkedLimits(limits);
     if (!this.#rig) return;
     this.#rig.limits = this.#limits;
-    this.#moved(false);
+    this.#moved();
   }
 
-  /** Vertical field of view, radians; `undefined` for cameras that have none, and before there is a scene. */
+  /** Width over height of the canvas. */
+  get aspect(): number {
+    return Math.max(1, this.#canvas.clientWidth) / Math.max(1, this.#canvas.clientHeight);
+  }
+
+  /** The camera of an image, by default one of the canvas's shape. `undefined` before there is a scene. */
+  camera(aspect = this.aspect): Camera | undefined {
+    return this.#rig && fitCamera(this.#rig.camera(), aspect);
+  }
+
+  /** See `Viewer.setCamera`. */
+  setCamera(camera: Camera | number | string, move?: Move): void {
+    const scene = sceneOf(this.#engine);
+    this.#rig?.setCamera(finish(this.choose(scene, camera)));
+    this.#moved(move);
+  }
+
+  get orbit(): Orbit | undefined {
+    return this.#rig?.goal;
+  }
+
+  /** See `Viewer.setOrbit`. */
+  setOrbit(orbit: Partial<Orbit>, move?: Move): void {
+    sceneOf(this.#engine);
+    this.#rig?.setOrbit(orbit);
+    this.#moved(move);
+  }
+
   get fieldOfView(): number | undefined {
     return this.#rig?.yfov;
   }
@@ -141,171 +123,58 @@ export abstract class ViewerCamera extends ViewerSettings {
     if (yfov !== undefined) checkedFieldOfView(yfov);
     if (!this.#rig || yfov === undefined) return;
     this.#rig.yfov = yfov;
-    this.#moved(true);
+    this.#moved({ immediate: true });
   }
 
-  /**
-   * Frames the whole model, from where the camera looks or from a direction (from the model towards the camera).
-   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a direction without length or of other than finite
-   * numbers.
-   */
-  frame(options: { readonly direction?: Vector; readonly immediate?: boolean } = {}): void {
-    const scene = this.theScene();
-    const m = (this.#rig as OrbitRig).camera().transform;
+  /** See `Viewer.frame`. */
+  frame(move?: Move & { readonly direction?: Vector }): void {
+    const scene = sceneOf(this.#engine);
+    const rig = this.#rig as OrbitRig;
     const direction =
-      options.direction === undefined
-        ? ([m[8], m[9], m[10]] as unknown as Vector)
-        : checkedDirection(options.direction, 'direction');
-    this.#rig?.setCamera(
-      frameCamera(scene, {
-        aspect: this.aspect,
-        direction,
-        ...(this.fieldOfView === undefined ? {} : { yfov: this.fieldOfView }),
-      }),
-    );
-    this.#moved(options.immediate);
+      move?.direction === undefined ? column(rig.camera().transform, 8) : checkedDirection(move.direction, 'direction');
+    const { yfov } = rig;
+    rig.setCamera(frameCamera(scene, { aspect: this.aspect, direction, ...(yfov === undefined ? {} : { yfov }) }));
+    this.#moved(move);
   }
 
-  /** Back to the first view. */
-  home(options: { readonly immediate?: boolean } = {}): void {
+  /** See `Viewer.home`. */
+  home(move?: Move): void {
     if (!this.#rig || !this.#home) return;
     this.#rig.setCamera(this.#home);
-    this.#moved(options.immediate);
+    this.#moved(move);
   }
 
-  /** Looks at what lies under a point of the canvas; CSS pixels. @returns What lies there. @throws as {@link pick}. */
+  /** See `Viewer.focus`. */
   focus(x: number, y: number): PickResult | undefined {
     const hit = this.pick(x, y);
     if (hit) {
       this.#rig?.focus(hit.position);
-      this.#moved(false);
+      this.#moved();
     }
     return hit;
   }
 
-  /**
-   * What lies under a point of the canvas; CSS pixels from its upper left corner.
-   * @throws {ViewerError} `viewer/camera` for what are no finite numbers.
-   */
+  /** See `Viewer.pick`. */
   pick(x: number, y: number): PickResult | undefined {
     checkedAmount(x, 'x');
     checkedAmount(y, 'y');
-    const tracer = this.engine.tracer;
+    const { tracer } = this.#engine;
     return tracer?.pick(
-      (x / Math.max(1, this.canvas.clientWidth)) * tracer.width,
-      (y / Math.max(1, this.canvas.clientHeight)) * tracer.height,
+      (x / Math.max(1, this.#canvas.clientWidth)) * tracer.width,
+      (y / Math.max(1, this.#canvas.clientHeight)) * tracer.height,
     );
   }
 
-  /** Where a point of the world is on the canvas, as the camera is now. `undefined` before there is a scene. */
-  project(point: Vector): Projection | undefined {
-    const { camera } = this;
-    return camera && project(camera, this.aspect, point);
-  }
-
-  override destroy(): void {
-    this.#stopControls();
-    super.destroy();
-  }
-
-  /** @internal Looks at another model from its first camera. */
-  protected beginAt(camera: Camera, bounds: SceneBounds): void {
+  /** Looks at another model from its first camera. */
+  begin(camera: Camera, bounds: SceneBounds): void {
     this.#home = camera;
     this.#rig = new OrbitRig(camera, bounds, { damping: this.#damping, limits: this.#limits });
-    this.#cameraSource = 'api';
-    this.engine.touch();
+    this.#source = 'api';
+    this.#engine.touch();
   }
 
-  /** @internal */
-  protected cameraHost(): Pick<EngineHost, 'step' | 'moving' | 'camera'> {
-    return {
-      step: (seconds) => this.#step(seconds),
-      moving: () => (this.#rig?.moving ?? false) || this.#turning,
-      camera: (aspect) => fitCamera((this.#rig as OrbitRig).camera(), aspect),
-    };
-  }
-
-  get #turning(): boolean {
-    return this.#autoRotate !== 0 && !calm() && performance.now() - this.#rested > 1000 * this.autoRotateDelay;
-  }
-
-  #step(seconds: number): boolean {
-    const rig = this.#rig;
-    if (!rig) return false;
-    if (this.#turning) {
-      this.#cameraSource = 'auto-rotate';
-      rig.orbit(this.#autoRotate * Math.min(seconds, 0.1), 0);
-      if (rig.damping === 0) rig.jump();
-    }
-    const moved = rig.step(seconds);
-    if (moved) this.#emitCameraChange();
-    return moved;
-  }
-
-  #emitCameraChange(): void {
-    const { camera, orbit } = this;
-    if (camera && orbit)
-      this.emit('camera-change', { camera, orbit: (this.#rig as OrbitRig).orbitNow, source: this.#cameraSource });
-  }
-
-  #moved(immediate: boolean | undefined, source: CameraChangeSource = 'api'): void {
-    this.#cameraSource = source;
-    this.#rested = performance.now();
-    const rig = this.#rig;
-    if (immediate && rig) {
-      rig.jump();
-      this.#emitCameraChange();
-    }
-    this.engine.touch();
-  }
-
-  #applyControls(): void {
-    this.#stopControls();
-    const { canvas } = this;
-    if (!this.#controls) return;
-    const options = this.#controls === true ? {} : this.#controls;
-    const { touchAction } = canvas.style;
-    canvas.style.touchAction = 'none';
-    const focusable = canvas.hasAttribute('tabindex');
-    if (!focusable) canvas.tabIndex = 0;
-    const by = (act: (rig: OrbitRig) => void) => {
-      if (!this.#rig) return;
-      act(this.#rig);
-      this.#moved(false, 'user');
-    };
-    const stop = controlCamera(
-      canvas,
-      {
-        orbit: (yaw, pitch) => by((rig) => rig.orbit(yaw, pitch)),
-        pan: (right, up) => by((rig) => rig.pan(right, up)),
-        zoom: (factor) => by((rig) => rig.zoom(factor)),
-        home: () => by((rig) => this.#home && rig.setCamera(this.#home)),
-        focus: (x, y) =>
-          by((rig) => {
-            const hit = this.pick(x, y);
-            if (hit) rig.focus(hit.position);
-          }),
-        pick: (x, y) => void (this.heard('pick') && this.#rig && this.emit('pick', { hit: this.pick(x, y), x, y })),
-      },
-      options,
-    );
-    this.#stopControls = () => {
-      stop();
-      canvas.style.touchAction = touchAction;
-      if (!focusable) canvas.removeAttribute('tabindex');
-      this.#stopControls = () => undefined;
-    };
-  }
-
-  #chooseCamera(scene: Scene, camera: number | string): Camera {
-    const steps = this.cameraSteps(scene, camera);
-    let step = steps.next();
-    while (!step.done) step = steps.next();
-    return step.value;
-  }
-
-  /** @internal The camera that an option means. */
-  protected *cameraSteps(scene: Scene, camera: ViewerOptions['camera'] | 'keep'): Generator<void, Camera> {
+  /** The camera that an option means, in steps. */
+  *choose(scene: Scene, camera: ViewerOptions['camera'] | 'keep'): Generator<void, Camera> {
     const { aspect } = this;
     if (typeof camera === 'object') return checkedCamera(camera);
     if (typeof camera === 'function') return checkedCamera(camera(scene, aspect));
@@ -321,5 +190,96 @@ export abstract class ViewerCamera extends ViewerSettings {
         `The scene has no camera ${JSON.stringify(camera)}; it has: ${scene.cameras.map(({ name }) => name).join(', ') || 'none'}.`,
       );
     return found;
+  }
+
+  /** Whether the camera moves, or is about to. */
+  get moving(): boolean {
+    return (this.#rig?.moving ?? false) || this.#turning;
+  }
+
+  /** Advances the camera by so many seconds. @returns Whether it has moved. */
+  step(seconds: number): boolean {
+    const rig = this.#rig;
+    if (!rig) return false;
+    if (this.#turning) {
+      this.#source = 'auto-rotate';
+      rig.orbit(this.autoRotate * Math.min(seconds, 0.1), 0);
+      if (rig.damping === 0) rig.jump();
+    }
+    const moved = rig.step(seconds);
+    if (moved) this.#report(rig);
+    return moved;
+  }
+
+  /** Removes the controls. */
+  destroy(): void {
+    this.#stopControls();
+  }
+
+  /** Whether the view rotates by itself now. */
+  get #turning(): boolean {
+    return (
+      this.autoRotate !== 0 &&
+      !prefersReducedMotion() &&
+      performance.now() - this.#lastMove > 1000 * this.autoRotateDelay
+    );
+  }
+
+  #report(rig: OrbitRig): void {
+    this.#events.emit('camera-change', {
+      camera: this.camera() as Camera,
+      orbit: rig.orbitNow,
+      source: this.#source,
+    });
+  }
+
+  #moved(move?: Move, source: CameraChangeSource = 'api'): void {
+    this.#source = source;
+    this.#lastMove = performance.now();
+    const rig = this.#rig;
+    if (rig && move?.immediate) {
+      rig.jump();
+      this.#report(rig);
+    }
+    this.#engine.touch();
+  }
+
+  #applyControls(): void {
+    this.#stopControls();
+    const canvas = this.#canvas;
+    if (!this.#controls) return;
+    const options = this.#controls === true ? {} : this.#controls;
+    const { touchAction } = canvas.style;
+    canvas.style.touchAction = 'none';
+    const focusable = canvas.hasAttribute('tabindex');
+    if (!focusable) canvas.tabIndex = 0;
+    const by = (act: (rig: OrbitRig) => void) => {
+      if (!this.#rig) return;
+      act(this.#rig);
+      this.#moved(undefined, 'user');
+    };
+    const stop = controlCamera(
+      canvas,
+      {
+        orbit: (yaw, pitch) => by((rig) => rig.orbit(yaw, pitch)),
+        pan: (right, up) => by((rig) => rig.pan(right, up)),
+        zoom: (factor) => by((rig) => rig.zoom(factor)),
+        home: () => by((rig) => this.#home && rig.setCamera(this.#home)),
+        focus: (x, y) =>
+          by((rig) => {
+            const hit = this.pick(x, y);
+            if (hit) rig.focus(hit.position);
+          }),
+        pick: (x, y) =>
+          void (this.#events.has('pick') && this.#rig && this.#events.emit('pick', { hit: this.pick(x, y), x, y })),
+      },
+      options,
+    );
+    this.#stopControls = () => {
+      stop();
+      canvas.style.touchAction = touchAction;
+      if (!focusable) canvas.removeAttribute('tabindex');
+      this.#stopControls = () => undefined;
+    };
   }
 }

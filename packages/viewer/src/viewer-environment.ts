@@ -1,7 +1,11 @@
 import type { PathTracer } from '@glanz/renderer';
-import { createScene, inSlices, validationSteps, type Environment, type Scene } from '@glanz/scene';
+import { createScene, inSlices, untilAborted, validationSteps, type Environment, type Scene } from '@glanz/scene';
+import type { Engine } from './engine';
+import { isLoss } from './aborts';
 import { ViewerError } from './errors';
+import { LatestTask } from './latest-task';
 import { loadEnvironment, type EnvironmentSource } from './load';
+import type { ViewerOptions } from './options';
 import type { Vector } from './orbit-state';
 
 interface Setting {
@@ -20,14 +24,22 @@ interface Prepared {
   readonly adopt: () => void;
 }
 
-/** A viewer's environment with its intensity and rotation. What a tracer refuses is not kept. */
+/** The environment of a viewer, its intensity and its rotation. Values that a tracer refuses are not kept. */
 export class ViewerEnvironment {
+  readonly #engine: Engine;
+  readonly #changing = new LatestTask();
   #now: Setting;
   /** The last one that a tracer accepted. */
   #accepted: Setting;
 
-  constructor(source: EnvironmentSource = 'scene', intensity = 1, rotation = 0) {
-    this.#now = this.#accepted = { source, loaded: undefined, intensity, rotation };
+  constructor(engine: Engine, options: ViewerOptions) {
+    this.#engine = engine;
+    this.#now = this.#accepted = {
+      source: options.environment ?? 'scene',
+      loaded: undefined,
+      intensity: options.environmentIntensity ?? 1,
+      rotation: options.environmentRotation ?? 0,
+    };
   }
 
   get intensity(): number {
@@ -38,39 +50,30 @@ export class ViewerEnvironment {
     return this.#now.rotation;
   }
 
-  /** Sets intensity or rotation. With a scene, {@link apply} has to follow. */
-  adjust(change: Partial<Pick<Setting, 'intensity' | 'rotation'>>, hasScene: boolean): void {
-    this.#set(change, hasScene);
+  /** Sets intensity, rotation or another environment. Resolves when the image shows it. */
+  async set(change: Partial<Setting>): Promise<void> {
+    const hasScene = this.#engine.tracer !== undefined;
+    this.#keep(change, hasScene);
+    if (hasScene) await this.#engine.edit('environment', (tracer) => this.#light(tracer));
   }
 
   /**
-   * Sets another environment. With a scene, {@link apply} has to follow.
+   * Loads another environment. A later call aborts an earlier one. Resolves when the image shows it.
+   *
+   * @param scene The scene as it was loaded.
    * @throws for what cannot be read, or is no environment; the former one stays.
    */
-  async change(source: EnvironmentSource, scene: Scene | undefined, signal: AbortSignal): Promise<void> {
-    const given = await loadEnvironment(source, signal);
-    signal.throwIfAborted();
-    const loaded = await forScene(source, given, scene);
-    // Without a tracer nothing else validates it.
-    if (!scene && loaded) await inSlices(validationSteps({ ...createScene(), environment: loaded }), { signal });
-    signal.throwIfAborted();
-    this.#set({ source, loaded }, scene !== undefined);
+  async change(source: EnvironmentSource, scene: Scene | undefined, signal: AbortSignal | undefined): Promise<void> {
+    const reason = 'another environment was requested';
+    const loaded = await this.#changing.run(reason, signal, (either) =>
+      untilAborted(loadFor(scene, source, either), either),
+    );
+    await this.set({ source, loaded });
   }
 
-  /**
-   * Lights a tracer's scene. @throws {SceneError} {DeviceError} of the tracer; the last environment that worked is set
-   * again then.
-   */
-  async apply(tracer: PathTracer): Promise<void> {
-    const tried = this.#now;
-    try {
-      await tracer.setEnvironment(lit(tried));
-      this.#accepted = tried;
-    } catch (error) {
-      const lost = (error as { code?: unknown }).code === 'renderer/device-lost';
-      if (this.#now === tried && !lost) this.#now = this.#accepted;
-      throw error;
-    }
+  /** Aborts a change. */
+  destroy(): void {
+    this.#changing.abort();
   }
 
   /**
@@ -91,12 +94,27 @@ export class ViewerEnvironment {
       return {
         lit: lit({ ...this.#now, loaded }),
         warning,
-        adopt: () => source === this.#now.source && this.#set({ loaded }, false),
+        adopt: () => source === this.#now.source && this.#keep({ loaded }, false),
       };
     };
   }
 
-  #set(change: Partial<Setting>, tried: boolean): void {
+  /**
+   * Lights a tracer's scene. @throws {SceneError} {DeviceError} of the tracer; the last environment that worked is set
+   * again then.
+   */
+  async #light(tracer: PathTracer): Promise<void> {
+    const tried = this.#now;
+    try {
+      await tracer.setEnvironment(lit(tried));
+      this.#accepted = tried;
+    } catch (error) {
+      if (this.#now === tried && !isLoss(error)) this.#now = this.#accepted;
+      throw error;
+    }
+  }
+
+  #keep(change: Partial<Setting>, tried: boolean): void {
     this.#now = { ...this.#now, ...change };
     if (!tried) this.#accepted = this.#now;
   }
@@ -117,6 +135,21 @@ const forScene = async (
   scene: Scene | undefined,
 ): Promise<Environment | undefined> =>
   given ?? (source === 'scene' ? (scene?.environment ?? (await loadEnvironment('studio'))) : undefined);
+
+/** Reads an environment for a scene. */
+async function loadFor(
+  scene: Scene | undefined,
+  source: EnvironmentSource,
+  signal: AbortSignal,
+): Promise<Environment | undefined> {
+  const given = await loadEnvironment(source, signal);
+  signal.throwIfAborted();
+  const loaded = await forScene(source, given, scene);
+  // Without a tracer nothing else validates it.
+  if (!scene && loaded) await inSlices(validationSteps({ ...createScene(), environment: loaded }), { signal });
+  signal.throwIfAborted();
+  return loaded;
+}
 
 /** The scene with another environment. */
 export function withEnvironment(scene: Scene, environment: Environment | undefined): Scene {

@@ -1,56 +1,117 @@
-import type { PathTracer } from '@glanz/renderer';
-import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
-import { checkedOption, checkedSetting } from './checks';
-import type { Take } from './engine';
-import { isAbort } from './errors';
-import type { LoadStage } from './events';
-import { fitCamera } from './fit-camera';
-import { loadModel, type ModelSource } from './load';
-import { withEnvironment } from './viewer-environment';
-import type { linearColors, MaterialEdit } from './material-colors';
-import type { BlobOptions, ViewerOptions } from './options';
-import { plainScene } from './variants';
+import type { PathTracer, PickResult } from '@glanz/renderer';
+import type { Camera, Scene } from '@glanz/scene';
+import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
+import { checkAlive, checkedOption, checkedSetting, checkSettings, sceneOf } from './checks';
+import type { ControlOptions } from './controls';
+import { isAbort } from './aborts';
+import { Emitter, type ListenOptions } from './emitter';
+import { Engine } from './engine';
+import { engineSettings } from './engine-settings';
+import { ViewerError } from './errors';
+import type { ViewerEvents, ViewerState } from './events';
+import { imageSize } from './image-size';
+import type { EnvironmentSource, ModelSource } from './load';
+import type { MaterialEdit } from './material-colors';
+import type { BlobOptions, LoadOptions, ViewerOptions } from './options';
+import type { Orbit, OrbitLimits, Vector } from './orbit-state';
+import { project, type Projection } from './project';
 import { ViewerCamera } from './viewer-camera';
+import { ViewerEnvironment } from './viewer-environment';
+import { ViewerModel } from './viewer-model';
+import { engineReports, reportError } from './viewer-reports';
 
-/** Options for {@link Viewer.load}. */
-export interface LoadOptions {
-  /** Aborts the load; it rejects with the signal's reason, and the former model stays. */
-  readonly signal?: AbortSignal;
-  /** The first view; default that of {@link ViewerOptions.camera}. `keep` stays where the user is. */
-  readonly camera?: ViewerOptions['camera'] | 'keep';
-  /** Look of a model that has several. Default: that of {@link ViewerOptions.variant} where the model has it. */
-  readonly variant?: string;
+/** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`, `viewer/camera`; {ToneMapError} `tonemap/unknown`. */
+function checkArguments(canvas: HTMLCanvasElement, options: ViewerOptions): void {
+  if (typeof (canvas as HTMLCanvasElement | null)?.getContext !== 'function')
+    throw new ViewerError('viewer/no-canvas', 'The first argument must be a canvas element.');
+  checkSettings(options);
+  checkToneMapOptions(options);
 }
-
-/** Where the stages of a load begin and end in the whole, as shares; usual ones. */
-const STAGES: Readonly<Record<LoadStage, readonly [number, number]>> = {
-  read: [0, 0.3],
-  decode: [0.3, 0.45],
-  images: [0.45, 0.55],
-  bvh: [0.55, 0.75],
-  upload: [0.75, 0.85],
-  compile: [0.85, 1],
-};
 
 /**
  * A path-traced image on a canvas: loads models, turns them by pointer and keys, refines the image when they
  * rest, sleeps out of sight, and survives the loss of the GPU. Made by {@link createViewer}.
+ *
+ * Its properties can be set at any time. Setting one to a value that it cannot have (NaN, an infinity, another type, a
+ * number outside of its range) throws a {@link ViewerError} `viewer/option` and changes nothing.
  */
-export class Viewer extends ViewerCamera {
-  #loading: AbortController | undefined;
-  #variant: string | undefined;
-  #colors: Promise<{ readonly linearColors: typeof linearColors }> | undefined;
+export class Viewer {
+  /** The canvas that it draws on. */
+  readonly canvas: HTMLCanvasElement;
+  readonly #events = new Emitter<ViewerEvents>();
+  readonly #engine: Engine;
+  readonly #camera: ViewerCamera;
+  readonly #environment: ViewerEnvironment;
+  readonly #model: ViewerModel;
+  readonly #resize: ResizeObserver;
+  readonly #maxPixels: number | undefined;
+  #pixelRatio: number | undefined;
 
   /** @internal Use {@link createViewer}. */
   constructor(canvas: HTMLCanvasElement, options: ViewerOptions) {
-    super(canvas, options);
-    this.#variant = options.variant;
+    options.signal?.throwIfAborted();
+    checkArguments(canvas, options);
+    this.canvas = canvas;
+    this.#maxPixels = options.maxPixels;
+    this.#pixelRatio = options.pixelRatio;
+    const events = this.#events;
+    const engine = (this.#engine = new Engine(canvas, engineSettings(options), options.preview?.budgetMs ?? 12, {
+      ...engineReports(events),
+      step: (seconds) => this.#camera.step(seconds),
+      moving: () => this.#camera.moving,
+      camera: (aspect) => this.#camera.camera(aspect) as Camera,
+    }));
+    this.#camera = new ViewerCamera(canvas, options, events, engine);
+    this.#environment = new ViewerEnvironment(engine, options);
+    this.#model = new ViewerModel(options, events, engine, this.#camera, this.#environment);
+    this.#resize = new ResizeObserver(() => this.#resized());
+    this.#resize.observe(canvas);
+    this.#resized();
     options.signal?.addEventListener('abort', () => this.destroy(), { once: true });
   }
 
-  /** Names of the model's variants. */
-  get variants(): readonly string[] {
-    return this.scene?.variants ?? [];
+  /**
+   * Adds a listener for an event. Where one throws, the others are called all the same, and its error is an uncaught
+   * error of the page.
+   *
+   * @returns A function that removes the listener.
+   * @example
+   * viewer.on('converged', ({ samples }) => console.log(samples));
+   */
+  on<K extends keyof ViewerEvents>(
+    type: K,
+    listener: (detail: ViewerEvents[K]) => void,
+    options?: ListenOptions,
+  ): () => void {
+    return this.#events.on(type, listener, options);
+  }
+
+  /** What it is doing. */
+  get state(): ViewerState {
+    return this.#engine.state;
+  }
+
+  /** The scene as it has been edited; `undefined` before the first one is there. Read only. */
+  get scene(): Scene | undefined {
+    return this.tracer?.scene;
+  }
+
+  /**
+   * The path tracer of the present scene, for what the viewer has no method for. Another one after each load and each
+   * loss of the device.
+   */
+  get tracer(): PathTracer | undefined {
+    return this.#engine.tracer;
+  }
+
+  /** The GPU device in use; another one after each loss. */
+  get device(): GPUDevice | undefined {
+    return this.#engine.device;
+  }
+
+  /** Samples per pixel of the image as it is. */
+  get sampleCount(): number {
+    return this.#engine.current ? (this.tracer?.samples ?? 0) : 0;
   }
 
   /**
@@ -67,34 +128,18 @@ export class Viewer extends ViewerCamera {
    * input.onchange = () => viewer.load(input.files);
    */
   async load(source: ModelSource, options: LoadOptions = {}): Promise<Scene> {
-    this.check();
-    this.#loading?.abort(new DOMException('another model was asked for', 'AbortError'));
-    const loading = (this.#loading = new AbortController());
-    const signal = options.signal ? AbortSignal.any([options.signal, loading.signal]) : loading.signal;
-    const started = performance.now();
-    const onProgress = ({ stage, done }: { stage: LoadStage; done: number }) => {
-      const [from, to] = STAGES[stage];
-      if (!signal.aborted)
-        this.emit('progress', { stage, done, total: from + (to - from) * Math.min(1, Math.max(0, done)) });
-    };
-    try {
-      signal.throwIfAborted();
-      const scene = await untilAborted(this.#prepare(source, options, signal, onProgress), signal);
-      this.emit('load', { scene, milliseconds: performance.now() - started });
-      return scene;
-    } catch (error) {
-      // What is still on its way is of no use.
-      loading.abort(error);
-      if (!isAbort(error)) this.fail(error, () => void this.load(source, options).catch(() => undefined));
-      throw error;
-    } finally {
-      if (this.#loading === loading) this.#loading = undefined;
-    }
+    checkAlive(this.#engine);
+    return this.#model.load(source, options);
+  }
+
+  /** Names of the model's variants. */
+  get variants(): readonly string[] {
+    return this.scene?.variants ?? [];
   }
 
   /** Name of the variant that is shown; `undefined`: the model's own materials. */
   get variant(): string | undefined {
-    return this.#variant;
+    return this.#model.variant;
   }
 
   /**
@@ -102,9 +147,8 @@ export class Viewer extends ViewerCamera {
    * @returns When the image shows it.
    * @throws {RenderError} `renderer/variant` if it has no such variant; {ViewerError} `viewer/no-scene`.
    */
-  async setVariant(variant: string | undefined): Promise<void> {
-    await this.edit((tracer) => tracer.setVariant(variant), { key: 'variant' });
-    this.#variant = variant;
+  setVariant(variant: string | undefined): Promise<void> {
+    return this.#model.setVariant(variant);
   }
 
   /**
@@ -118,16 +162,7 @@ export class Viewer extends ViewerCamera {
    * await viewer.setMaterial('seat', { base_color: 'rebeccapurple', specular_roughness: 0.2 });
    */
   setMaterial(nameOrIndex: string | number, parameters: MaterialEdit): Promise<void> {
-    this.theScene();
-    if (Object.values(parameters).some((value) => typeof value === 'string'))
-      this.#colors ??= import('./material-colors');
-    const colors = this.#colors;
-    // Once the module has been asked for, all edits wait for it, so that they stay in their order.
-    const set = (tracer: PathTracer, edit: object) =>
-      colors
-        ? colors.then((module) => tracer.setMaterial(nameOrIndex, module.linearColors(nameOrIndex, edit)))
-        : tracer.setMaterial(nameOrIndex, edit);
-    return this.engine.edit(`material ${nameOrIndex}`, set, parameters);
+    return this.#model.setMaterial(nameOrIndex, parameters);
   }
 
   /**
@@ -140,13 +175,13 @@ export class Viewer extends ViewerCamera {
    * await viewer.edit((tracer) => tracer.setVisibility('lid', false), { key: 'lid' });
    */
   edit(change: (tracer: PathTracer) => void | Promise<void>, options: { readonly key?: string } = {}): Promise<void> {
-    this.theScene();
-    return this.engine.edit(options.key ?? Symbol('edit'), change);
+    sceneOf(this.#engine);
+    return this.#engine.edit(options.key ?? Symbol('edit'), change);
   }
 
   /** Draws the image again as it is, after a change that needs no new samples (`tracer.setLightGroup()`). */
   redraw(): void {
-    this.engine.redraw();
+    this.#engine.redraw();
   }
 
   /**
@@ -165,87 +200,263 @@ export class Viewer extends ViewerCamera {
    * = share) });
    */
   async toBlob(options: BlobOptions = {}): Promise<Blob> {
-    this.theScene();
+    sceneOf(this.#engine);
     const { imageBlob } = await import('./save-image');
-    this.check();
-    return imageBlob(this, this.engine, options, { checkedOption, checkedSetting });
+    checkAlive(this.#engine);
+    return imageBlob(this, this.#engine, options, { checkedOption, checkedSetting });
+  }
+
+  /**
+   * Another environment. It also serves the models that are loaded later. A later call aborts an earlier one.
+   * @returns When the image shows it.
+   * @throws {ViewerError} `viewer/environment`; {ImageError} for an image that cannot be read; {SceneError} for data
+   * that is no environment; {DeviceError} where the GPU has no memory for it. The former one stays.
+   * @throws the signal's reason, or an `AbortError`, when aborted.
+   */
+  async setEnvironment(source: EnvironmentSource, options: { readonly signal?: AbortSignal } = {}): Promise<void> {
+    checkAlive(this.#engine);
+    return this.#environment.change(source, this.#model.loaded, options.signal);
+  }
+
+  /** See {@link ViewerOptions.environmentIntensity}. */
+  get environmentIntensity(): number {
+    return this.#environment.intensity;
+  }
+
+  set environmentIntensity(intensity: number) {
+    if (checkedSetting('environmentIntensity', intensity) !== this.environmentIntensity)
+      this.#inBackground(this.#environment.set({ intensity }));
+  }
+
+  /** See {@link ViewerOptions.environmentRotation}. */
+  get environmentRotation(): number {
+    return this.#environment.rotation;
+  }
+
+  set environmentRotation(rotation: number) {
+    if (checkedSetting('environmentRotation', rotation) !== this.environmentRotation)
+      this.#inBackground(this.#environment.set({ rotation }));
+  }
+
+  /** See {@link ViewerOptions.background}. */
+  get background(): 'environment' | 'transparent' {
+    return this.#engine.settings.background;
+  }
+
+  set background(background: 'environment' | 'transparent') {
+    if (checkedOption('background', background) === this.#engine.settings.background) return;
+    this.#engine.settings.background = background;
+    this.#inBackground(this.#engine.edit('background', (tracer) => tracer.setBackground(background)));
+  }
+
+  /** See {@link ViewerOptions.exposure}. */
+  get exposure(): number {
+    return this.#engine.settings.exposure as number;
+  }
+
+  set exposure(exposure: number) {
+    if (checkedSetting('exposure', exposure) !== this.exposure) this.#inBackground(this.#engine.setView({ exposure }));
+  }
+
+  /** See {@link ViewerOptions.toneMap}. Setting an unknown one throws {ToneMapError} `tonemap/unknown`. */
+  get toneMap(): ToneMap {
+    return this.#engine.settings.toneMap as ToneMap;
+  }
+
+  set toneMap(toneMap: ToneMap) {
+    checkToneMapOptions({ toneMap });
+    if (toneMap !== this.toneMap) this.#inBackground(this.#engine.setView({ toneMap }));
+  }
+
+  /** See {@link ViewerOptions.samples}. */
+  get samples(): number {
+    return this.#engine.settings.samples;
+  }
+
+  set samples(samples: number) {
+    if (checkedOption('samples', samples) === this.samples) return;
+    this.#engine.settings.samples = samples;
+    this.#engine.restart();
+  }
+
+  /** See {@link ViewerOptions.noise}. */
+  get noise(): number | undefined {
+    return this.#engine.settings.noise;
+  }
+
+  set noise(noise: number | undefined) {
+    const target = noise === undefined ? undefined : checkedOption('noise', noise) || undefined;
+    if (target === this.noise) return;
+    this.#engine.settings.noise = target;
+    this.#engine.restart();
+  }
+
+  /** See {@link ViewerOptions.maxDepth}. */
+  get maxDepth(): number {
+    return this.#engine.settings.maxDepth;
+  }
+
+  set maxDepth(depth: number) {
+    if (checkedOption('maxDepth', depth) === this.maxDepth) return;
+    this.#engine.settings.maxDepth = depth;
+    this.#engine.touch();
+  }
+
+  /** See {@link ViewerOptions.pixelRatio}; `undefined` is the screen's own. */
+  get pixelRatio(): number | undefined {
+    return this.#pixelRatio;
+  }
+
+  set pixelRatio(ratio: number | undefined) {
+    this.#pixelRatio = ratio === undefined ? undefined : checkedSetting('pixelRatio', ratio);
+    this.#resized();
+  }
+
+  /** Adds no samples while it is set, but for one after each change. */
+  get paused(): boolean {
+    return this.#engine.paused;
+  }
+
+  set paused(paused: boolean) {
+    this.#engine.paused = paused;
+  }
+
+  /** See {@link ViewerOptions.controls}. */
+  get controls(): boolean | ControlOptions {
+    return this.#camera.controls;
+  }
+
+  set controls(controls: boolean | ControlOptions) {
+    this.#camera.controls = controls;
+  }
+
+  /** See {@link ViewerOptions.autoRotate}. */
+  get autoRotate(): number {
+    return this.#camera.autoRotate;
+  }
+
+  set autoRotate(speed: number) {
+    this.#camera.autoRotate = checkedSetting('autoRotate', speed);
+    this.#engine.touch();
+  }
+
+  /** See {@link ViewerOptions.autoRotateDelay}. */
+  get autoRotateDelay(): number {
+    return this.#camera.autoRotateDelay;
+  }
+
+  set autoRotateDelay(seconds: number) {
+    this.#camera.autoRotateDelay = checkedSetting('autoRotateDelay', seconds);
+  }
+
+  /** See {@link ViewerOptions.damping}. */
+  get damping(): number {
+    return this.#camera.damping;
+  }
+
+  set damping(seconds: number) {
+    this.#camera.damping = seconds;
+  }
+
+  /** See {@link ViewerOptions.orbitLimits}. */
+  get orbitLimits(): OrbitLimits {
+    return this.#camera.limits;
+  }
+
+  set orbitLimits(limits: OrbitLimits) {
+    this.#camera.limits = limits;
+  }
+
+  /** The camera that the image is, or is being, taken with. `undefined` before there is a scene. */
+  get camera(): Camera | undefined {
+    return this.#camera.camera();
+  }
+
+  /**
+   * Goes to where a camera stands, smoothly unless `immediate`. The user turns about what lies ahead of it.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a camera that the scene does not have, or that nothing
+   * can be seen with. The view stays as it was then.
+   */
+  setCamera(camera: Camera | number | string, options?: { readonly immediate?: boolean }): void {
+    this.#camera.setCamera(camera, options);
+  }
+
+  /** Where the camera goes around what it looks at. `undefined` before there is a scene. */
+  get orbit(): Orbit | undefined {
+    return this.#camera.orbit;
+  }
+
+  /**
+   * Goes to an orbit, smoothly unless `immediate`; what is left out stays as it is.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for NaN, infinities, other types, and a radius that is not
+   * above 0. The view stays as it was then.
+   */
+  setOrbit(orbit: Partial<Orbit>, options?: { readonly immediate?: boolean }): void {
+    this.#camera.setOrbit(orbit, options);
+  }
+
+  /** Vertical field of view, radians; `undefined` for cameras that have none, and before there is a scene. */
+  get fieldOfView(): number | undefined {
+    return this.#camera.fieldOfView;
+  }
+
+  set fieldOfView(yfov: number | undefined) {
+    this.#camera.fieldOfView = yfov;
+  }
+
+  /**
+   * Frames the whole model, from where the camera looks or from a direction (from the model towards the camera).
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a direction without length or of other than finite
+   * numbers.
+   */
+  frame(options?: { readonly direction?: Vector; readonly immediate?: boolean }): void {
+    this.#camera.frame(options);
+  }
+
+  /** Back to the first view. */
+  home(options?: { readonly immediate?: boolean }): void {
+    this.#camera.home(options);
+  }
+
+  /** Looks at what lies under a point of the canvas; CSS pixels. @returns What lies there. @throws as {@link pick}. */
+  focus(x: number, y: number): PickResult | undefined {
+    return this.#camera.focus(x, y);
+  }
+
+  /**
+   * What lies under a point of the canvas; CSS pixels from its upper left corner.
+   * @throws {ViewerError} `viewer/camera` for what are no finite numbers.
+   */
+  pick(x: number, y: number): PickResult | undefined {
+    return this.#camera.pick(x, y);
+  }
+
+  /** Where a point of the world is on the canvas, as the camera is now. `undefined` before there is a scene. */
+  project(point: Vector): Projection | undefined {
+    const { camera } = this;
+    return camera && project(camera, this.#camera.aspect, point);
   }
 
   /** Frees everything, the device too. Idempotent. The canvas can serve another viewer. */
-  override destroy(): void {
-    this.#loading?.abort(new DOMException('the viewer was destroyed', 'AbortError'));
-    super.destroy();
+  destroy(): void {
+    if (this.state === 'destroyed') return;
+    this.#model.destroy();
+    this.#environment.destroy();
+    this.#camera.destroy();
+    this.#resize.disconnect();
+    this.#engine.destroy();
+    this.#events.close();
   }
 
-  /** Reads a model and has it shown. */
-  async #prepare(
-    source: ModelSource,
-    options: LoadOptions,
-    signal: AbortSignal,
-    onProgress: (progress: { stage: LoadStage; done: number }) => void,
-  ): Promise<Scene> {
-    const { decoders, createWorker } = this.options;
-    const reading = loadModel(source, {
-      signal,
-      decoders,
-      createWorker,
-      compressedFormats: () => this.engine.compressedFormats(),
-      onProgress,
-    });
-    const [scene, prepare] = await Promise.all([reading, this.environment.fetch(signal), this.engine.connect()]);
-    signal.throwIfAborted();
-    const { lit, warning, adopt } = await prepare(scene);
-    // Each iterates over all vertices.
-    const camera = await inSlices(this.cameraSteps(scene, options.camera ?? this.options.camera ?? 'auto'), { signal });
-    const bounds = await inSlices(sceneBoundsSteps(scene), { signal });
-    const wanted = options.variant ?? this.options.variant;
-    const variant = wanted !== undefined && scene.variants?.includes(wanted) ? wanted : undefined;
-    await this.engine.show(
-      (former) =>
-        this.#take(former, {
-          scene,
-          shown: withEnvironment(scene, lit),
-          camera: fitCamera(camera, this.aspect),
-          variant,
-        }),
-      {
-        signal,
-        onProgress,
-        onTaken: () => {
-          this.loaded = scene;
-          this.#variant = variant;
-          adopt();
-          if (warning) this.warn(warning);
-          this.beginAt(camera, bounds);
-        },
-      },
-    );
-    return scene;
+  /** Emits an error of work that a setter has started. */
+  #inBackground(work: Promise<void>): void {
+    work.catch((error: unknown) => isAbort(error) || reportError(this.#events, error));
   }
 
-  /** A scene as it was loaded, or as it was edited until its tracer was lost; its variant is applied on top. */
-  #take(
-    former: PathTracer | undefined,
-    first: {
-      readonly scene: Scene;
-      readonly shown: Scene;
-      readonly camera: Camera;
-      readonly variant: string | undefined;
-    },
-  ): Take {
-    const variant = former ? this.#variant : first.variant;
-    const groups = former?.lightGroups ?? [];
-    return {
-      scene: former ? plainScene(former.scene, first.scene, variant) : first.shown,
-      camera: former?.camera ?? first.camera,
-      ready: async (tracer) => {
-        if (variant !== undefined) await tracer.setVariant(variant);
-        for (const { name, intensity, color } of groups) {
-          if (intensity !== 1 || color.some((value) => value !== 1))
-            await tracer.setLightGroup(name, { intensity, color });
-        }
-      },
-    };
+  #resized(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const size = imageSize(clientWidth, clientHeight, this.#pixelRatio, this.#maxPixels);
+    this.#engine.resize(size, size);
   }
 }
 

@@ -1,14 +1,13 @@
 /** Watches whether an element can be seen: in the window, in a tab that is shown. */
 export class Visibility {
   readonly #listeners = new AbortController();
-  readonly #observer: IntersectionObserver | undefined;
+  readonly #observer: IntersectionObserver;
   #inView = true;
   #changed: () => void;
 
   constructor(element: Element, changed: () => void) {
     this.#changed = changed;
     document.addEventListener('visibilitychange', () => this.#changed(), { signal: this.#listeners.signal });
-    if (typeof IntersectionObserver === 'undefined') return;
     this.#observer = new IntersectionObserver((entries) => {
       const seen = entries[entries.length - 1]?.isIntersecting ?? true;
       if (seen === this.#inView) return;
@@ -25,7 +24,7 @@ export class Visibility {
   destroy(): void {
     this.#changed = () => undefined;
     this.#listeners.abort();
-    this.#observer?.disconnect();
+    this.#observer.disconnect();
   }
 }
 

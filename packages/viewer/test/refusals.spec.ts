@@ -104,6 +104,27 @@ test('setters refuse what they cannot be, with a typed error, and nothing change
   expect(await heard(page, 'error')).toEqual([]);
 });
 
+test('a viewer whose options are refused does not request a device', async ({ page }) => {
+  await open(page, served.origin);
+  const result = await page.evaluate(() => {
+    let requests = 0;
+    const requestDevice = () => {
+      requests++;
+      return Promise.reject(new Error('requested'));
+    };
+    const codes = [{ orbitLimits: { phi: [2, 1] as [number, number] } }, { samples: NaN }].map((wrong) => {
+      try {
+        window.make({ ...wrong, requestDevice }).destroy();
+        return 'taken';
+      } catch (error) {
+        return (error as { code?: unknown }).code;
+      }
+    });
+    return { codes, requests };
+  });
+  expect(result).toEqual({ codes: ['viewer/camera', 'viewer/option'], requests: 0 });
+});
+
 test('sources of models and environments that are none reject with a typed error', async ({ page }) => {
   await open(page, served.origin);
   const before = await shot(page);

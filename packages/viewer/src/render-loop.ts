@@ -1,0 +1,440 @@
+import type { PathTracer } from '@glanz/renderer';
+import { previewShare } from './crossfade';
+import type { Display, GpuImage } from './display';
+import { Edits } from './edits';
+import type { EngineHost, EngineSettings } from './engine-host';
+import { abortError, isLoss } from './aborts';
+import type { ViewerState } from './events';
+import { FilmFit, sameSize, scaledSize } from './film-fit';
+import { FilmKeeper } from './film-keeper';
+import { PreviewController } from './preview';
+import { nextFrame, soon, Visibility } from './visibility';
+
+/** Samples after which a preview that stands still is as good as it can be. */
+const PREVIEW_SAMPLES = 16;
+/** A frame that began so many milliseconds ago was not of this frame of the screen. */
+const SCREEN_MS = 15;
+/** Milliseconds of one submission of the preview: it shall be one. */
+const PREVIEW_SUBMIT_MS = 50;
+
+/** Width and height, pixels. */
+export type Size = readonly [number, number];
+
+/** What a {@link RenderLoop} requests from its engine, and reports to it. */
+export interface LoopEngine {
+  /** The display of the canvas, while there is a device. */
+  readonly display: () => Display | undefined;
+  /** Why nothing can be rendered at present, or undefined. */
+  readonly blocked: () => ViewerState | undefined;
+  /** Whether a tracer is the one that is shown, on a device that is alive. */
+  readonly isCurrent: (tracer: PathTracer | undefined) => boolean;
+  readonly failed: (error: unknown) => void;
+}
+
+const sizeOf = (tracer: PathTracer): Size => [tracer.width, tracer.height];
+const imageOf = (tracer: PathTracer): GpuImage => ({ buffer: tracer.beautyBuffer, size: sizeOf(tracer) });
+
+/**
+ * Renders a tracer's film to a canvas: a small preview while something moves, then the image until it is done. Sleeps
+ * when there is nothing to do or nobody sees the canvas.
+ */
+export class RenderLoop {
+  readonly #settings: EngineSettings;
+  readonly #host: EngineHost;
+  readonly #engine: LoopEngine;
+  readonly #edits = new Edits();
+  readonly #visibility: Visibility;
+  readonly #films = new FilmFit();
+  readonly #keeper = new FilmKeeper();
+  readonly #preview: PreviewController;
+  #tracer: PathTracer | undefined;
+  #state: ViewerState = 'empty';
+  #film: Size = [1, 1];
+  #canvasSize: Size = [1, 1];
+  #paused = false;
+  /** Whether the film holds a sample since it was last cleared. */
+  #fresh = false;
+  #done = false;
+  /** Whether a film that the GPU has no memory for was reported. */
+  #smaller = false;
+  /** The time has come to try the whole size again. */
+  #growing = false;
+  #dirtyCamera = true;
+  /** When the preview ends, if nothing moves until then. */
+  #settle = 0;
+  #changed = 0;
+  #lastStep = 0;
+  #lastPreview = -Infinity;
+  #frame = 0;
+  #interrupt = new AbortController();
+  #wake: () => void = () => undefined;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    settings: EngineSettings,
+    budgetMs: number,
+    host: EngineHost,
+    engine: LoopEngine,
+  ) {
+    this.#settings = settings;
+    this.#host = host;
+    this.#engine = engine;
+    this.#preview = new PreviewController(budgetMs);
+    this.#visibility = new Visibility(canvas, () => this.stir());
+  }
+
+  /** The tracer that is shown. */
+  get tracer(): PathTracer | undefined {
+    return this.#tracer;
+  }
+
+  get state(): ViewerState {
+    return this.#state;
+  }
+
+  set state(state: ViewerState) {
+    if (state === this.#state || this.#state === 'destroyed') return;
+    this.#state = state;
+    this.#host.state(state);
+  }
+
+  /** See `Engine.fresh`. */
+  get fresh(): boolean {
+    return this.#fresh;
+  }
+
+  /** See `Engine.current`. */
+  get current(): boolean {
+    return this.#fresh && !this.#moving && !!this.#tracer && sameSize(sizeOf(this.#tracer), this.imageSize);
+  }
+
+  /** Pixels of the image in full, as far as the GPU has memory for them. */
+  get imageSize(): Size {
+    return this.#films.sizeFor(this.#film);
+  }
+
+  /** Edits that wait for the next frame. */
+  get waiting(): number {
+    return this.#edits.size;
+  }
+
+  get paused(): boolean {
+    return this.#paused;
+  }
+
+  set paused(paused: boolean) {
+    this.#paused = paused;
+    this.stir();
+  }
+
+  /** Adds samples until the viewer is destroyed; sleeps where there is nothing to do. */
+  async run(): Promise<void> {
+    while (this.#state !== 'destroyed') {
+      const idle = this.#idleState();
+      const tracer = this.#tracer;
+      if (idle || !tracer) {
+        await this.#sleep(idle ?? 'empty');
+        continue;
+      }
+      this.#interrupt = new AbortController();
+      try {
+        if (this.#moving) await this.#previewFrame(tracer);
+        else if (this.#growing) await this.#grow(tracer);
+        else await this.#refine(tracer);
+      } catch (error) {
+        // A loss of the device shows in what follows; it is handled where the device reports it.
+        await soon();
+        await soon();
+        this.#fail(error, tracer);
+      }
+    }
+  }
+
+  /** Shows another tracer. @param restored Whether its film holds the samples of the image already. */
+  show(tracer: PathTracer, restored: boolean): void {
+    // Who asks for the canvas's size before the first image is drawn gets the one that it will have.
+    if (!this.#tracer) this.#engine.display()?.resize(this.#canvasSize);
+    this.#tracer?.destroy();
+    this.#tracer = tracer;
+    if (restored) {
+      this.#fresh = true;
+      this.#done = false;
+      this.redraw();
+    } else this.#restarted();
+  }
+
+  /** Takes over the film of a tracer that will be shown, in the size in which it was made. */
+  adopt(tracer: PathTracer): void {
+    this.#films.adopt(tracer, this.#settings.maxDepth);
+  }
+
+  /** Forgets which sizes the GPU had no memory for. */
+  tryFullSize(): void {
+    this.#films.forget();
+  }
+
+  /** Puts the samples that were kept into the film of a new tracer. @returns Whether they are in it. */
+  async restore(tracer: PathTracer): Promise<boolean> {
+    const { kept } = this.#keeper;
+    // A view or a scene that has changed since is another image.
+    if (!kept || this.#moving) return false;
+    try {
+      await tracer.restoreFilm(kept);
+    } catch {
+      return false;
+    }
+    return !this.#moving && kept === this.#keeper.kept;
+  }
+
+  /** The device is gone, and the film with it. */
+  lose(): void {
+    this.#fresh = false;
+    this.state = 'recovering';
+    this.stir();
+  }
+
+  /** See `Engine.edit`. */
+  edit(
+    key: unknown,
+    apply: (tracer: PathTracer, merged: object) => void | Promise<void>,
+    value: object,
+  ): Promise<void> {
+    return this.#edits.add(key, (merged) => (this.#tracer ? apply(this.#tracer, merged) : undefined), value);
+  }
+
+  /** Drops the edits that wait. */
+  clearEdits(reason: unknown): void {
+    this.#edits.clear(reason);
+  }
+
+  /** See `Engine.touch`. */
+  touch(): void {
+    this.#dirtyCamera = true;
+    this.#settle = performance.now() + this.#settings.settleMs;
+    this.stir();
+  }
+
+  /** See `Engine.resize`. @returns Whether a size is another one. */
+  resize(film: Size, canvas: Size): boolean {
+    const sameFilm = sameSize(film, this.#film);
+    if (sameFilm && sameSize(canvas, this.#canvasSize)) return false;
+    if (!sameFilm) this.#films.forget();
+    this.#film = film;
+    this.#canvasSize = canvas;
+    return true;
+  }
+
+  /** See `Engine.restart`. */
+  restart(): void {
+    this.#done = false;
+    this.stir();
+  }
+
+  /** See `Engine.redraw`. */
+  redraw(): void {
+    cancelAnimationFrame(this.#frame);
+    this.#frame = requestAnimationFrame(() => {
+      try {
+        this.#draw();
+      } catch (error) {
+        this.#fail(error, this.#tracer);
+      }
+    });
+  }
+
+  /** Interrupts what is being rendered, or the sleep: something has changed. */
+  stir(): void {
+    this.#interrupt.abort();
+    this.#wake();
+  }
+
+  /** Ends the loop and frees the tracer. */
+  destroy(): void {
+    this.stir();
+    this.#edits.clear(abortError());
+    cancelAnimationFrame(this.#frame);
+    this.#visibility.destroy();
+    this.#tracer?.destroy();
+    this.#tracer = undefined;
+  }
+
+  /** What happens to a tracer whose device was lost is no failure: another one takes its place. */
+  #fail(error: unknown, tracer: PathTracer | undefined): void {
+    if (this.#engine.isCurrent(tracer)) this.#engine.failed(error);
+  }
+
+  /** Waits until something changes. */
+  async #sleep(state: ViewerState): Promise<void> {
+    // Before the state is emitted: a listener may request work at once.
+    const woken = new Promise<void>((resolve) => (this.#wake = resolve));
+    this.state = state;
+    const grow = () => {
+      this.#growing = true;
+      this.stir();
+    };
+    const retry = state === 'done' && this.#smaller ? setTimeout(grow, this.#films.retryMs) : undefined;
+    await woken;
+    clearTimeout(retry);
+    this.#lastStep = performance.now();
+  }
+
+  /** Why nothing is to be computed, or undefined. */
+  #idleState(): ViewerState | undefined {
+    const blocked = this.#engine.blocked();
+    if (blocked) return blocked;
+    if (!this.#visibility.visible) return 'hidden';
+    if (this.#moving) return undefined;
+    if (this.#paused && this.current) return 'paused';
+    return this.#done && !this.#growing ? 'done' : undefined;
+  }
+
+  get #moving(): boolean {
+    return this.#dirtyCamera || this.#edits.size > 0 || this.#host.moving() || performance.now() < this.#settle;
+  }
+
+  /** An image that is as small as it must be to keep up with the controls. */
+  async #previewFrame(tracer: PathTracer): Promise<void> {
+    // In step with the screen where the GPU keeps up; the first frame, and those of a slow GPU, do not wait for it as
+    // well.
+    await (performance.now() - this.#lastPreview < SCREEN_MS ? nextFrame() : soon());
+    if (tracer !== this.#tracer || !this.#visibility.visible) return;
+    this.state = 'moving';
+    const { settleMs, previewDepth, maxDepth } = this.#settings;
+    const now = (this.#lastPreview = performance.now());
+    const stepped = this.#host.step(Math.max(0, now - this.#lastStep) / 1000);
+    this.#lastStep = now;
+    const full = this.imageSize;
+    const plan = this.#preview.plan(full[0] * full[1]);
+    const changed = stepped || this.#dirtyCamera || this.#edits.size > 0;
+    if (stepped || this.#dirtyCamera) {
+      // What stands still keeps its size: samples gather.
+      const depth = plan.divisor > 1 ? Math.min(previewDepth, maxDepth) : maxDepth;
+      await this.#fit(tracer, full, depth, 1 / plan.divisor);
+      if (tracer !== this.#tracer) return;
+      this.#dirtyCamera = false;
+      tracer
+        .setCamera(this.#host.camera(this.#film[0] / this.#film[1]))
+        .catch((error: unknown) => this.#engine.isCurrent(tracer) && this.#host.error(error));
+      this.#settle = now + settleMs;
+    }
+    this.#edits.apply(() => this.#edited());
+    if (changed) this.#restarted();
+    const before = tracer.samples;
+    // In its full size it is the image already, and that gets the requested samples.
+    const max = sameSize(sizeOf(tracer), this.imageSize) ? this.#goal : Infinity;
+    if (before >= Math.min(PREVIEW_SAMPLES, max) && this.#fresh) return;
+    const started = performance.now();
+    let samples = before;
+    for await (const progress of tracer.render({
+      samples: Math.min(before + plan.samples, Math.max(max, before)),
+      maxSubmitMs: PREVIEW_SUBMIT_MS,
+    })) {
+      ({ samples } = progress);
+      if (!this.#visibility.visible) break;
+    }
+    // A film that an edit has restarted meanwhile has none.
+    if (tracer !== this.#tracer || tracer.samples === 0) return;
+    const milliseconds = performance.now() - started;
+    if (samples > before) this.#preview.measured(tracer.width * tracer.height, samples - before, milliseconds);
+    this.#fresh = true;
+    this.#draw(milliseconds);
+  }
+
+  /** The image in full, until it is done or something moves. */
+  async #refine(tracer: PathTracer): Promise<void> {
+    const { samples, noise, maxSubmitMs, maxDepth, keepSamples } = this.#settings;
+    this.state = 'rendering';
+    const full = this.imageSize;
+    if (this.#fresh && !sameSize(sizeOf(tracer), full))
+      void this.#engine.display()?.keep(imageOf(tracer), tracer.samples, full);
+    if (await this.#fit(tracer, full, maxDepth)) this.#fresh = false;
+    // Another size may be wanted by now, or is all that there is memory for.
+    if (tracer !== this.#tracer || this.#moving || !sameSize(sizeOf(tracer), this.imageSize)) return;
+    const { signal } = this.#interrupt;
+    for await (const progress of tracer.render({
+      samples: this.#goal,
+      signal,
+      maxSubmitMs,
+      ...(noise === undefined || this.#paused ? {} : { noise }),
+    })) {
+      if (tracer !== this.#tracer) return;
+      this.#fresh = true;
+      this.#host.sample({ ...progress, targetSamples: samples });
+      if (keepSamples !== false) this.#keeper.offer(tracer, false);
+      this.redraw();
+      if (this.#moving) return;
+    }
+    if (tracer !== this.#tracer || signal.aborted || this.#moving || this.#paused) return;
+    // Ended by kernels that came late and restarted the film: once more.
+    if (!this.#fresh && tracer.samples === 0) return;
+    this.#fresh = true;
+    this.#done = true;
+    if (keepSamples !== false) this.#keeper.offer(tracer, true);
+    this.#engine.display()?.forget();
+    this.redraw();
+    this.#host.converged(tracer.samples, performance.now() - this.#changed);
+  }
+
+  /**
+   * Gives the film a size; where the GPU has no memory for it, the film keeps what it has. @returns Whether it was
+   * restarted.
+   */
+  async #fit(tracer: PathTracer, size: Size, depth: number, scale = 1): Promise<boolean> {
+    try {
+      const restarted = await this.#films.fit(tracer, size, depth, scale);
+      if (scale === 1 && sameSize(size, this.#film)) this.#smaller = false;
+      return restarted;
+    } catch (error) {
+      // A lost device refuses nothing: its successor may have memory for all of it.
+      if (!this.#engine.isCurrent(tracer) || isLoss(error)) throw error;
+      this.#films.refuse(tracer, scaledSize(size, scale));
+      // Once: smaller ones are tried until one fits.
+      if (!this.#smaller) this.#host.error(error);
+      this.#smaller = true;
+      return false;
+    }
+  }
+
+  /** Tries the whole size again, while an image that had to be smaller is shown. */
+  async #grow(tracer: PathTracer): Promise<void> {
+    this.#growing = false;
+    if (!this.#smaller) return;
+    const display = this.#engine.display();
+    void display?.keep(imageOf(tracer), tracer.samples, this.#film);
+    if (await this.#films.grow(tracer, this.#film)) this.#smaller = this.#fresh = this.#done = false;
+    else display?.forget();
+  }
+
+  /** Samples of the image in full. */
+  get #goal(): number {
+    return this.#paused ? 1 : this.#settings.samples;
+  }
+
+  /** An edit has taken effect, perhaps by kernels that came late and restarted the film. */
+  #edited(): void {
+    this.#restarted();
+    this.#settle = performance.now() + this.#settings.settleMs;
+    this.stir();
+  }
+
+  #restarted(): void {
+    this.#fresh = false;
+    this.#done = false;
+    this.#keeper.clear();
+    this.#changed = performance.now();
+    this.#engine.display()?.forget();
+    this.#host.restarted?.();
+  }
+
+  #draw(milliseconds = 0): void {
+    const tracer = this.#tracer;
+    const display = this.#engine.display();
+    if (!tracer || !display || !this.#fresh) return;
+    const image = imageOf(tracer);
+    if (!sameSize(image.size, this.imageSize)) display.forget();
+    const share = display.kept > 0 ? previewShare(tracer.samples, display.kept, this.#settings.samples) : 0;
+    if (share === 0 && display.kept > 0) display.forget();
+    display.draw(image, this.#canvasSize, share);
+    this.#host.drawn(this.#state === 'moving', milliseconds, image.size);
+  }
+}

@@ -1,0 +1,177 @@
+import type { PathTracer } from '@glanz/renderer';
+import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
+import { sceneOf } from './checks';
+import type { Emitter } from './emitter';
+import type { Engine, Take } from './engine';
+import { isAbort } from './aborts';
+import type { LoadStage, ViewerEvents } from './events';
+import { fitCamera } from './fit-camera';
+import { LatestTask } from './latest-task';
+import { loadModel, type ModelSource } from './load';
+import type { linearColors, MaterialEdit } from './material-colors';
+import type { LoadOptions, ViewerOptions } from './options';
+import { plainScene } from './variants';
+import type { ViewerCamera } from './viewer-camera';
+import { withEnvironment, type ViewerEnvironment } from './viewer-environment';
+import { reportError, reportWarning } from './viewer-reports';
+
+/** Where the stages of a load begin and end, as parts of the whole; usual ones. */
+const STAGES: Readonly<Record<LoadStage, readonly [number, number]>> = {
+  read: [0, 0.3],
+  decode: [0.3, 0.45],
+  images: [0.45, 0.55],
+  bvh: [0.55, 0.75],
+  upload: [0.75, 0.85],
+  compile: [0.85, 1],
+};
+
+/** The model of a viewer: how it is loaded, its variants and its materials. */
+export class ViewerModel {
+  readonly #options: ViewerOptions;
+  readonly #events: Emitter<ViewerEvents>;
+  readonly #engine: Engine;
+  readonly #camera: ViewerCamera;
+  readonly #environment: ViewerEnvironment;
+  readonly #loading = new LatestTask();
+  #colors: Promise<{ readonly linearColors: typeof linearColors }> | undefined;
+  /** The scene as it was loaded. */
+  loaded: Scene | undefined;
+  /** Name of the variant that is shown. */
+  variant: string | undefined;
+
+  constructor(
+    options: ViewerOptions,
+    events: Emitter<ViewerEvents>,
+    engine: Engine,
+    camera: ViewerCamera,
+    environment: ViewerEnvironment,
+  ) {
+    this.#options = options;
+    this.#events = events;
+    this.#engine = engine;
+    this.#camera = camera;
+    this.#environment = environment;
+    this.variant = options.variant;
+  }
+
+  /** See `Viewer.load`. */
+  async load(source: ModelSource, options: LoadOptions): Promise<Scene> {
+    const started = performance.now();
+    try {
+      return await this.#loading.run('another model was requested', options.signal, async (signal) => {
+        const onProgress = ({ stage, done }: { stage: LoadStage; done: number }) => {
+          const [from, to] = STAGES[stage];
+          if (!signal.aborted)
+            this.#events.emit('progress', {
+              stage,
+              done,
+              total: from + (to - from) * Math.min(1, Math.max(0, done)),
+            });
+        };
+        signal.throwIfAborted();
+        const scene = await untilAborted(this.#prepare(source, options, signal, onProgress), signal);
+        this.#events.emit('load', { scene, milliseconds: performance.now() - started });
+        return scene;
+      });
+    } catch (error) {
+      if (!isAbort(error))
+        reportError(this.#events, error, () => void this.load(source, options).catch(() => undefined));
+      throw error;
+    }
+  }
+
+  /** See `Viewer.setVariant`. */
+  async setVariant(variant: string | undefined): Promise<void> {
+    sceneOf(this.#engine);
+    await this.#engine.edit('variant', (tracer) => tracer.setVariant(variant));
+    this.variant = variant;
+  }
+
+  /** See `Viewer.setMaterial`. */
+  setMaterial(nameOrIndex: string | number, parameters: MaterialEdit): Promise<void> {
+    sceneOf(this.#engine);
+    if (Object.values(parameters).some((value) => typeof value === 'string'))
+      this.#colors ??= import('./material-colors');
+    const colors = this.#colors;
+    // Once the module has been asked for, all edits wait for it, so that they stay in their order.
+    const set = (tracer: PathTracer, edit: object) =>
+      colors
+        ? colors.then((module) => tracer.setMaterial(nameOrIndex, module.linearColors(nameOrIndex, edit)))
+        : tracer.setMaterial(nameOrIndex, edit);
+    return this.#engine.edit(`material ${nameOrIndex}`, set, parameters);
+  }
+
+  /** Aborts a load. */
+  destroy(): void {
+    this.#loading.abort();
+  }
+
+  /** Reads a model and has the engine show it. */
+  async #prepare(
+    source: ModelSource,
+    options: LoadOptions,
+    signal: AbortSignal,
+    onProgress: (progress: { stage: LoadStage; done: number }) => void,
+  ): Promise<Scene> {
+    const engine = this.#engine;
+    const { decoders, createWorker, camera: firstView = 'auto', variant: firstVariant } = this.#options;
+    const reading = loadModel(source, {
+      signal,
+      decoders,
+      createWorker,
+      compressedFormats: () => engine.compressedFormats(),
+      onProgress,
+    });
+    const [scene, prepare] = await Promise.all([reading, this.#environment.fetch(signal), engine.connect()]);
+    signal.throwIfAborted();
+    const { lit, warning, adopt } = await prepare(scene);
+    // Each iterates over all vertices.
+    const camera = await inSlices(this.#camera.choose(scene, options.camera ?? firstView), { signal });
+    const bounds = await inSlices(sceneBoundsSteps(scene), { signal });
+    const requested = options.variant ?? firstVariant;
+    const variant = requested !== undefined && scene.variants?.includes(requested) ? requested : undefined;
+    const first = {
+      scene,
+      shown: withEnvironment(scene, lit),
+      camera: fitCamera(camera, this.#camera.aspect),
+      variant,
+    };
+    await engine.show((former) => this.#specify(former, first), {
+      signal,
+      onProgress,
+      onTaken: () => {
+        this.loaded = scene;
+        this.variant = variant;
+        adopt();
+        if (warning) reportWarning(this.#events, warning);
+        this.#camera.begin(camera, bounds);
+      },
+    });
+    return scene;
+  }
+
+  /** A scene as it was loaded, or as it was edited until its tracer was lost; its variant is applied on top. */
+  #specify(
+    former: PathTracer | undefined,
+    first: {
+      readonly scene: Scene;
+      readonly shown: Scene;
+      readonly camera: Camera;
+      readonly variant: string | undefined;
+    },
+  ): Take {
+    const variant = former ? this.variant : first.variant;
+    const groups = former?.lightGroups ?? [];
+    return {
+      scene: former ? plainScene(former.scene, first.scene, variant) : first.shown,
+      camera: former?.camera ?? first.camera,
+      ready: async (tracer) => {
+        if (variant !== undefined) await tracer.setVariant(variant);
+        for (const { name, intensity, color } of groups) {
+          if (intensity !== 1 || color.some((value) => value !== 1))
+            await tracer.setLightGroup(name, { intensity, color });
+        }
+      },
+    };
+  }
+}
