@@ -161,12 +161,13 @@ function writeTriangles(
 }
 
 /**
- * Writes which shapes on the GPU the triangles of an instance are.
+ * Writes which shapes on the GPU the triangles of an instance are, and their ids.
  *
  * @param base The first one's record.
  * @param count How many there are.
  * @param slot The instance's record.
  * @param leaves Input triangle → absolute leaf-order triangle.
+ * @param firstId The first one's id, see `LightIds`.
  */
 export function nameTriangles(
   records: ArrayBuffer,
@@ -174,11 +175,13 @@ export function nameTriangles(
   count: number,
   slot: number,
   leaves: Uint32Array,
+  firstId: number,
 ): void {
   const integers = new Uint32Array(records);
   const words = lightStruct.size / 4;
   for (let triangle = 0, at = base * words + wordOf('ids'); triangle < count; triangle++, at += words) {
     integers[at] = slot;
     integers[at + 1] = leaves[triangle] as number;
+    integers[at + 3] = firstId + triangle;
   }
 }

@@ -12,6 +12,7 @@ import { GROUP_SHIFT, LIGHT_NODE_DISTANT, LIGHT_NODE_LEAF, lightStruct, NONE } f
 import { buildAliasTable, type AliasTable } from './alias-table';
 import type { TreeLights } from './light-bounds';
 import type { LightGroupTable } from './light-groups';
+import { nameLights, type LightIds } from './light-ids';
 import { profileGrid, profileRecords, writeProfile, type ProfileGrid } from './light-profile';
 import { hasSize, luminance, wordOf, writeLight } from './light-records';
 import { LIGHT_TREE_DISTANT, LIGHT_TREE_LEAF, LIGHT_TREE_NODE, lightTreeSteps, type LightTree } from './light-tree';
@@ -162,6 +163,7 @@ export function* lightSteps(
  * Makes the table, in the memory of what was gathered.
  *
  * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
+ * @param ids Keeps what it has named for the next table.
  * @returns Undefined where something glows that has no place after all: to be gathered without it.
  */
 export function* placingSteps(
@@ -169,6 +171,7 @@ export function* placingSteps(
   lights: GatheredLights,
   geometry: LightGeometry,
   sceneRadius: number,
+  ids: LightIds,
 ): Steps<LightTable | undefined> {
   const { records, count, profiles, tree, firstArea, areaCount, firstLight, emitters, weights, directional } = lights;
   if (emitters.some(({ instance }) => geometry.instanceSlots[instance] === NONE)) return undefined;
@@ -176,6 +179,7 @@ export function* placingSteps(
   const table = buildAliasTable(weights);
   if (!table) return noLights(scene);
   yield;
+  ids.begin(count);
   for (const { instance, base, triangles } of emitters) {
     nameTriangles(
       records,
@@ -183,9 +187,11 @@ export function* placingSteps(
       triangles,
       geometry.instanceSlots[instance] as number,
       geometry.leafTriangles((scene.instances[instance] as Instance).mesh),
+      ids.ofTriangles(instance, triangles),
     );
     yield;
   }
+  nameLights(records, scene.lights, firstArea, areaCount, ids);
   writeChances(records, table, tree);
   yield;
   return {
@@ -207,9 +213,10 @@ export function buildLightTable(
   sceneRadius: number,
   groups: LightGroupTable,
   sampling: LightSampling,
+  ids: LightIds,
 ): LightTable {
   const lights = finish(lightSteps(scene, (instance) => geometry.instanceSlots[instance] !== NONE, groups, sampling));
-  return finish(placingSteps(scene, lights, geometry, sceneRadius)) as LightTable;
+  return finish(placingSteps(scene, lights, geometry, sceneRadius, ids)) as LightTable;
 }
 
 function sumOf(values: Float64Array): number {

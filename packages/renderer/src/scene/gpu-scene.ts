@@ -21,6 +21,7 @@ import {
 } from '../geometry/geometry';
 import { createYielder } from '../geometry/hierarchies';
 import { lightGroupTable, type LightGroupTable } from '../lights/light-groups';
+import { LightIds, lightIndex } from '../lights/light-ids';
 import {
   buildLightTable,
   noLights,
@@ -90,6 +91,8 @@ export class GpuScene {
   #features: KernelFeatures | undefined;
   #groups: LightGroupTable;
   #lights: LightTable;
+  /** Names of the lights that hold across edits. */
+  readonly lightIds = new LightIds();
   /** Of the scene when the lights were gathered: directional lights are weighed by it. */
   #lightsRadius = 0;
   #environment: EnvironmentData;
@@ -182,6 +185,7 @@ export class GpuScene {
     this.#writeAllNodes();
     this.#resources.write('materials', this.#packMaterials());
     this.#resources.write('lights', this.#lights.records);
+    this.#writeLightIndex();
     this.#resources.write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
   }
 
@@ -219,6 +223,8 @@ export class GpuScene {
 
   /** Binding of one of the resources this scene owns. */
   resource(name: string): GPUBindingResource | undefined {
+    // Made for the first kernel that asks for it, and kept up to date from then on.
+    if (name === 'light_index' && !this.#resources.buffer(name)) this.#writeLightIndex(true);
     const buffer = this.#resources.buffer(name as ResourceName);
     if (buffer) return { buffer };
     const texture = this.#resources.texture(name as ResourceName);
@@ -413,9 +419,12 @@ export class GpuScene {
     }
     const placed =
       gathered &&
-      (await inSlices(placingSteps(this.#scene, gathered, this.#places, this.#geometry.placement.radius), {
-        sliceMs: FILL_MS,
-      }));
+      (await inSlices(
+        placingSteps(this.#scene, gathered, this.#places, this.#geometry.placement.radius, this.lightIds),
+        {
+          sliceMs: FILL_MS,
+        },
+      ));
     this.#lightsRadius = this.#geometry.placement.radius;
     this.#lights = placed ?? this.#buildLights();
     this.#features = undefined;
@@ -458,12 +467,29 @@ export class GpuScene {
     const indices = [...changed];
     for (let i = 0; i < firstLight.length; i++) if (firstLight[i] !== before.firstLight[i]) indices.push(i);
     this.#writeRecords(indices);
+    const moved = this.#writeLightIndex();
     if (records.byteLength === before.records.byteLength) {
       this.#resources.write('lights', records);
-      return false;
+      return moved;
     }
     this.#resources.upload('lights', records);
     return true;
+  }
+
+  /**
+   * Writes the records of the lights by their ids, where a kernel has asked for them.
+   * @param asked Whether one does now.
+   * @returns Whether the buffer was replaced.
+   */
+  #writeLightIndex(asked = false): boolean {
+    const present = this.#resources.buffer('light_index');
+    if (!present && !asked) return false;
+    const needed = 4 * this.lightIds.end;
+    const grows = !present || present.size < needed;
+    // Room to grow: each new buffer is another bind group.
+    const buffer = grows ? this.#resources.make('light_index', 2 * needed) : present;
+    this.#resources.write('light_index', lightIndex(this.#lights, buffer.size / 4));
+    return grows;
   }
 
   /** Writes the records of all instances. Each has its own, hidden or not, so that the buffer is never replaced. */
@@ -549,6 +575,7 @@ export class GpuScene {
       this.#geometry.placement.radius,
       this.#groups,
       this.#choices.lightSampling,
+      this.lightIds,
     );
   }
 

@@ -214,6 +214,9 @@ export const LIGHT_TWO_SIDED = 16;
 export const LIGHT_MIRRORED = 32;
 /** Added to the kind of a light with a size: the camera does not see it. */
 export const LIGHT_HIDDEN = 64;
+/** The environment, among the ids of lights (`LightIds`), and the first id of others. */
+export const LIGHT_ID_ENVIRONMENT = 0;
+export const LIGHT_ID_FIRST = 1;
 /** Kinds of nodes of the light tree, added up. */
 export const LIGHT_NODE_LEAF = 1;
 export const LIGHT_NODE_DISTANT = 2;

@@ -36,6 +36,7 @@ const RESOURCES = {
   attributes: { type: 'array<u32>', space: 'read' },
   materials: { type: 'array<Material>', space: 'read', deps: [Material] },
   lights: { type: 'array<Light>', space: 'read', deps: [Light] },
+  light_index: { type: 'array<u32>', space: 'read' },
   environment: { type: 'texture_2d<f32>', space: 'unfilterable' },
   environment_table: { type: 'texture_2d<f32>', space: 'unfilterable' },
   energy_dielectric: { type: 'texture_3d<f32>', space: 'texture_3d' },

@@ -66,7 +66,7 @@ var<private> frame = TestFrame(${COUNT}u);
 }`,
       [lightStruct.module, lightTree, pathCone],
     );
-    const { code } = compose([host], { flags: { SOBOL: false, SCREEN_NOISE: false } });
+    const { code } = compose([host], { flags: { SOBOL: false, SCREEN_NOISE: false, LIGHT_TREE: true } });
     const input = Float32Array.from(places.flatMap(({ p, n }) => [...p, 0, ...n, 0]));
     const numbers = new Float32Array(
       await runCompute(device, code, {

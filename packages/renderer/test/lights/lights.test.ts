@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { NONE, lightStruct } from '../../src/storage/layout';
 import { prepareGeometry } from '../../src/geometry/geometry';
 import { lightGroupTable } from '../../src/lights/light-groups';
+import { LightIds } from '../../src/lights/light-ids';
 import { buildLightTable, lightSteps, placingSteps, type LightGeometry } from '../../src/lights/lights';
 import { emittedRadiance } from '../../src/materials/materials';
 import { parametersOf } from '../../src/materials/parameters';
@@ -47,8 +48,8 @@ describe('lights', () => {
     const places = placesOf(instanceSlots);
     for (const sampling of ['tree', 'power'] as const) {
       const gathered = finish(lightSteps(scene, () => true, groups, sampling));
-      const table = finish(placingSteps(scene, gathered, places, radius))!;
-      expect(table).toEqual(buildLightTable(scene, places, radius, groups, sampling));
+      const table = finish(placingSteps(scene, gathered, places, radius, new LightIds()))!;
+      expect(table).toEqual(buildLightTable(scene, places, radius, groups, sampling, new LightIds()));
       expect(table.count).toBe(6);
       // Two triangles, one that does not glow left out, two more: which shapes they are.
       const ids = [0, 1, 2, 3].map((i) => [
@@ -75,10 +76,23 @@ describe('lights', () => {
     const groups = lightGroupTable(scene, 'named');
     expect(
       finish(
-        placingSteps(scene, finish(lightSteps(scene, () => true, groups, 'tree')), placesOf(instanceSlots), radius),
+        placingSteps(
+          scene,
+          finish(lightSteps(scene, () => true, groups, 'tree')),
+          placesOf(instanceSlots),
+          radius,
+          new LightIds(),
+        ),
       ),
     ).toBeUndefined();
-    const { count, firstLight } = buildLightTable(scene, placesOf(instanceSlots), radius, groups, 'tree');
+    const { count, firstLight } = buildLightTable(
+      scene,
+      placesOf(instanceSlots),
+      radius,
+      groups,
+      'tree',
+      new LightIds(),
+    );
     expect([count, ...firstLight]).toEqual([4, NONE, NONE, 0]);
   });
 });

@@ -4,7 +4,7 @@ import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import type { Benchmark, Figure } from '../benchmark';
 import { BenchError } from '../error';
-import { slope, soak, soakPlot, type SoakPoint } from '../faults/soak';
+import { compileEarly, slope, soak, soakPlot, type SoakPoint } from '../faults/soak';
 
 const QUANTITIES: readonly {
   readonly name: string;
@@ -25,6 +25,10 @@ export const benchmark: Benchmark = {
   options: {
     minutes: { type: 'string', help: 'how long; default 30' },
     losses: { type: 'string', help: 'probability that an edit meets a lost device; default 0.02, 0 for none' },
+    jit: {
+      type: 'string',
+      help: '"no": V8 compiles nothing late, whose code grows the heap like a leak; default "yes"',
+    },
     svg: { type: 'string', help: 'file for the plot' },
   },
   async run({ log, quick, gpu: name, seed = 1, values }) {
@@ -34,6 +38,9 @@ export const benchmark: Benchmark = {
     const lossRate = Number(values['losses'] ?? 0.02);
     if (!(lossRate >= 0 && lossRate <= 1))
       throw new BenchError('bench/option', `--losses ${values['losses']}: it must be a number from 0 to 1.`);
+    const jit = values['jit'] ?? 'yes';
+    if (jit !== 'yes' && jit !== 'no') throw new BenchError('bench/option', `--jit ${jit}: it must be "yes" or "no".`);
+    if (jit === 'no') compileEarly();
     const { gpu, adapterName, software } = await createGpu(name === undefined ? { software: 'only' } : { gpu: name });
     // Caches fill at first: five minutes, or a sixth of a short run.
     const settled = Math.min(300, 10 * minutes);
@@ -75,7 +82,7 @@ export const benchmark: Benchmark = {
     if (errors.length > 0) process.exitCode = 1;
     const one = (what: string, unit: string, value: number): Figure => ({ name: what, unit, runs: 1, median: value });
     return {
-      settings: { minutes, seed, losses: lossRate, settledSeconds: settled },
+      settings: { minutes, seed, losses: lossRate, jit, settledSeconds: settled },
       figures: [
         one('loads', '1', loads),
         one('edits', '1', edits),

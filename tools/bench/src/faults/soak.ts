@@ -50,6 +50,47 @@ function uniform(seed: number): () => number {
   };
 }
 
+const MOST_POINTS = 301;
+const COLUMNS = ['seconds', 'heapBytes', 'externalBytes', 'rssBytes', 'gpuObjects', 'gpuBytes', 'losses'] as const;
+
+/** The measured points in memory of fixed size outside the heap: as objects they would be a slope of their own. */
+class PointTable {
+  readonly #values: Float64Array;
+  #count = 0;
+
+  constructor(most: number) {
+    this.#values = new Float64Array(most * COLUMNS.length);
+  }
+
+  get lastSeconds(): number {
+    return this.#count === 0 ? -Infinity : this.#values[(this.#count - 1) * COLUMNS.length]!;
+  }
+
+  add(point: SoakPoint): void {
+    this.#values.set(
+      COLUMNS.map((column) => point[column]),
+      this.#count++ * COLUMNS.length,
+    );
+  }
+
+  points(): SoakPoint[] {
+    return Array.from({ length: this.#count }, (_, index) => {
+      const row = this.#values.subarray(index * COLUMNS.length);
+      return Object.fromEntries(COLUMNS.map((column, at) => [column, row[at]!])) as unknown as SoakPoint;
+    });
+  }
+}
+
+/**
+ * Turns off what V8 compiles late: optimised and baseline code, type feedback that is allocated after some calls,
+ * bytecode that is dropped and made again. Code that is reached rarely is compiled long after the start, and the heap
+ * grows by it, as by a small leak.
+ */
+export function compileEarly(): void {
+  for (const flag of ['--no-opt', '--no-sparkplug', '--no-lazy-feedback-allocation', '--no-flush-bytecode'])
+    setFlagsFromString(flag);
+}
+
 setFlagsFromString('--expose-gc');
 const collect = runInNewContext('gc') as () => void;
 
@@ -60,7 +101,7 @@ const collect = runInNewContext('gc') as () => void;
 export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptions): Promise<SoakResult> {
   const next = uniform(seed);
   const recorder = new FaultRecorder();
-  const points: SoakPoint[] = [];
+  const measured = new PointTable(MOST_POINTS);
   const errors: string[] = [];
   const started = performance.now();
   const elapsed = () => (performance.now() - started) / 1000;
@@ -111,8 +152,7 @@ export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptio
     tracer = undefined;
     if (lost) device = instrumentDevice(await open(), recorder);
     await new Promise((resolve) => setTimeout(resolve, 10));
-    const last = points.at(-1);
-    if (last && elapsed() - last.seconds < seconds / 300) continue;
+    if (elapsed() - measured.lastSeconds < seconds / (MOST_POINTS - 1)) continue;
     collect();
     collect();
     const { heapUsed, external, rss } = process.memoryUsage();
@@ -125,11 +165,18 @@ export async function soak({ open, seconds, seed, lossRate, onPoint }: SoakOptio
       gpuBytes: recorder.liveBytes,
       losses,
     };
-    points.push(point);
+    measured.add(point);
     onPoint?.(point);
   }
   device.destroy();
-  return { points, loads, edits, losses, peak: { gpuBytes, gpuObjects }, errors: [...new Set(errors)] };
+  return {
+    points: measured.points(),
+    loads,
+    edits,
+    losses,
+    peak: { gpuBytes, gpuObjects },
+    errors: [...new Set(errors)],
+  };
 }
 
 /** A straight line through points by least squares: its slope, and the half-width of the slope's 95 % interval. */
