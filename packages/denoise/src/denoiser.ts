@@ -103,7 +103,7 @@ export class Denoiser {
     const software = isSoftware(device);
     this.#shapeOf = (layer, width, height) => {
       const family = options.shapeOf?.(layer, width, height);
-      const shape = family && withGroups(family, layer.channels, layer.up !== undefined);
+      const shape = family && withGroups(family, layer);
       return shape ?? chooseShape(layer, width, height, software);
     };
     this.#lost = device.lost.then(({ message }) => {

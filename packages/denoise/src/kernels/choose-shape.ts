@@ -1,18 +1,30 @@
 import type { Layer } from '../network';
-import { stagedUpChannels, tileHeight, tileOutputs, tileWidth, type KernelFamily, type KernelShape } from './shapes';
+import {
+  stagedUpChannels,
+  threadsOf,
+  tileHeight,
+  tileOutputs,
+  tileWidth,
+  type KernelFamily,
+  type KernelShape,
+} from './shapes';
 
 /**
- * From the most arithmetic per value read to the most workgroups. 4 × 4 pixels of 8 channels use each weight 16 times and
- * each pixel 72 times, with 128 sums in registers.
+ * What is chosen from, with the share of the arithmetic peak that it reaches where there is enough to do, in relation to
+ * the first (measured on an H200 at 1920 × 1080). More sums a thread mean fewer reads, but fewer threads at a time.
  */
-const FAMILIES: readonly KernelFamily[] = [
-  { threadsX: 8, threadsY: 4, rows: 4, outputs: 8 },
-  { threadsX: 4, threadsY: 4, rows: 2, outputs: 8 },
-  { threadsX: 2, threadsY: 4, rows: 2, outputs: 4 },
+export const FAMILIES: readonly (readonly [family: KernelFamily, efficiency: number])[] = [
+  [{ threadsX: 8, threadsY: 8, rows: 2, outputs: 8, maxGroups: 4 }, 1],
+  [{ threadsX: 8, threadsY: 8, rows: 2, outputs: 8, maxGroups: 2 }, 0.95],
+  [{ threadsX: 16, threadsY: 4, rows: 2, outputs: 8, maxGroups: 4 }, 1],
+  [{ threadsX: 8, threadsY: 4, rows: 2, outputs: 8 }, 0.97],
+  [{ threadsX: 8, threadsY: 4, rows: 4, outputs: 4 }, 0.97],
+  [{ threadsX: 4, threadsY: 4, rows: 2, outputs: 8 }, 0.8],
+  [{ threadsX: 4, threadsY: 8, rows: 2, outputs: 4 }, 0.8],
+  [{ threadsX: 2, threadsY: 4, rows: 2, outputs: 4 }, 0.6],
+  [{ threadsX: 4, threadsY: 8, rows: 1, outputs: 4 }, 0.6],
+  [{ threadsX: 2, threadsY: 8, rows: 1, outputs: 4, maxGroups: 4 }, 0.5],
 ];
-
-/** With an upsampled source there are more weights to stage, and the tile is smaller. */
-const FAMILIES_UP: readonly KernelFamily[] = [{ threadsX: 8, threadsY: 2, rows: 4, outputs: 8 }, ...FAMILIES.slice(1)];
 
 /** The last layer has three channels. */
 const FAMILY_LAST: KernelFamily = { threadsX: 8, threadsY: 8, rows: 2, outputs: 4 };
@@ -22,19 +34,20 @@ const FAMILY_LAST: KernelFamily = { threadsX: 8, threadsY: 8, rows: 2, outputs: 
  */
 const FAMILY_SOFTWARE: KernelFamily = { threadsX: 4, threadsY: 2, rows: 2, outputs: 4 };
 
-/** GPUs of the largest kind have some 130 to 150 processors; each should get a workgroup or two. */
-const ENOUGH_WORKGROUPS = 256;
-
 /**
  * The number of groups that computes the fewest channels in vain; the largest of those. `undefined` where a workgroup would
- * have too many threads or too much memory.
+ * have too many threads or too much memory, or rows do not come in pairs where pairs are pooled.
  */
-export function withGroups(family: KernelFamily, channels: number, up: boolean): KernelShape | undefined {
+export function withGroups(
+  family: KernelFamily,
+  { channels, up, pool }: Pick<Layer, 'channels' | 'up' | 'pool'>,
+): KernelShape | undefined {
+  if (pool && family.rows % 2 !== 0) return undefined;
   let best: KernelShape | undefined;
   let least = Infinity;
   for (let groups = 1; groups <= (family.maxGroups ?? 8); groups++) {
     const shape: KernelShape = { ...family, groups };
-    if (stagedUpChannels(shape, up) === 0 || groups * family.outputs >= channels + family.outputs) break;
+    if (stagedUpChannels(shape, up !== undefined) === 0 || groups * family.outputs >= channels + family.outputs) break;
     const computed = Math.ceil(channels / tileOutputs(shape)) * tileOutputs(shape);
     if (computed > least) continue;
     best = shape;
@@ -43,19 +56,49 @@ export function withGroups(family: KernelFamily, channels: number, up: boolean):
   return best;
 }
 
+// A model of a large GPU, from which small ones differ little: where there is enough to do for all processors, only the
+// efficiency counts.
+const PROCESSORS = 132;
+const LANES = 128;
+const REGISTERS = 65536;
+/** Cycles from an instruction of a thread to its next, at least. */
+const LATENCY = 2.5;
+/** Cycles in which a workgroup waits for four channels to be staged, where no other hides it. */
+const STAGING = 1500;
+
+/** Cycles that a layer would take, by the model. */
+function estimate(layer: Layer, shape: KernelShape, efficiency: number, width: number, height: number): number {
+  const threads = threadsOf(shape);
+  const workgroups =
+    Math.ceil(width / tileWidth(shape)) *
+    Math.ceil(height / tileHeight(shape)) *
+    Math.ceil(layer.channels / tileOutputs(shape));
+  const sums = 4 * shape.rows * shape.outputs;
+  const atOnce = Math.max(1, Math.floor(Math.min(REGISTERS / (sums + 64), 1536) / threads));
+  const quads = Math.ceil(layer.upChannels / 4) + Math.ceil(layer.directChannels / 4);
+  const multiplications = sums * (4 * layer.upChannels + 9 * 4 * Math.ceil(layer.directChannels / 4));
+  const waves = Math.ceil(workgroups / (PROCESSORS * atOnce));
+  const together = Math.min(atOnce, Math.ceil(workgroups / PROCESSORS));
+  const compute = multiplications * Math.max(LATENCY, (together * threads) / LANES / efficiency);
+  return waves * (compute + (quads * STAGING) / together);
+}
+
 /**
- * The shape for a layer of `width` × `height` pixels: the first of a list that gives enough workgroups.
+ * The shape for a layer of `width` × `height` pixels.
  *
  * @param software Whether a CPU computes.
  */
 export function chooseShape(layer: Layer, width: number, height: number, software: boolean): KernelShape {
-  const up = layer.up !== undefined;
-  if (software) return withGroups(FAMILY_SOFTWARE, layer.channels, up)!;
-  if (layer.channels <= 4) return withGroups(FAMILY_LAST, layer.channels, up)!;
-  const shapes = (up ? FAMILIES_UP : FAMILIES).map((family) => withGroups(family, layer.channels, up)!);
-  const workgroups = (shape: KernelShape) =>
-    Math.ceil(width / tileWidth(shape)) *
-    Math.ceil(height / tileHeight(shape)) *
-    Math.ceil(layer.channels / tileOutputs(shape));
-  return shapes.find((shape) => workgroups(shape) >= ENOUGH_WORKGROUPS) ?? shapes.at(-1)!;
+  if (software) return withGroups(FAMILY_SOFTWARE, layer)!;
+  if (layer.channels <= 4) return withGroups(FAMILY_LAST, layer)!;
+  let best: KernelShape | undefined;
+  let least = Infinity;
+  for (const [family, efficiency] of FAMILIES) {
+    const shape = withGroups(family, layer);
+    const cycles = shape ? estimate(layer, shape, efficiency, width, height) : Infinity;
+    if (!(cycles < least)) continue;
+    best = shape;
+    least = cycles;
+  }
+  return best!;
 }
