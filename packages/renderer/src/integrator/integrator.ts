@@ -1,4 +1,3 @@
-import { DeviceError } from '../errors';
 import type { Film } from '../film/film';
 import type { GroupWeights } from '../film/layers';
 import {
@@ -16,7 +15,7 @@ import { CONNECT_CROSSINGS, WALK_STEPS } from './limits';
 import { BLOCK } from '../storage/blocks';
 import { aovBatchStruct, batchStruct, frameStruct, shadowRecords } from '../storage/layout';
 import { pathLayout } from '../path/path-layout';
-import { MAX_LIGHT_GROUPS } from '../storage/resources';
+import { createBindGroup, MAX_LIGHT_GROUPS, type BindGroupName } from '../storage/resources';
 import type { Kernel, KernelFeatures, KernelName } from './pipelines';
 import type { Batch } from '../schedule/scheduler';
 import { isSoftware } from '../device/software';
@@ -66,7 +65,12 @@ export class Integrator {
   readonly #memory: GpuMemory;
   readonly #scene: ResourceProvider;
   readonly #buffers: Record<OwnBuffer, GPUBuffer>;
-  readonly #groups = new Map<KernelName, GPUBindGroup>();
+  /** Bind groups by what they bind: kernels that bind the same share one. */
+  readonly #groups: Readonly<Record<BindGroupName, Map<string, GPUBindGroup>>> = {
+    launch: new Map(),
+    scene: new Map(),
+    film: new Map(),
+  };
   readonly #wanted: number | undefined;
   /**
    * Whether the GPU itself says how many threads a kernel shall have: only as many as there are paths left. A CPU, for
@@ -77,6 +81,8 @@ export class Integrator {
   readonly #counted: boolean;
   #capacity: number;
   #growing = false;
+  /** The bind groups of the pass that is being encoded, by their numbers. */
+  #bound: (GPUBindGroup | undefined)[] = [];
   /** A number of paths that the GPU has refused memory for. */
   #refused = Infinity;
   /** As it was written. */
@@ -134,10 +140,10 @@ export class Integrator {
    * those that come early lets the browser make what it checks indirect dispatches with.
    */
   rehearse(name: KernelName, kernel: Kernel): void {
-    this.#group(name, kernel);
+    this.#groupsOf(kernel);
     // The sizes are all zeroes yet: nothing runs.
     if (name === 'generate' && this.#counted)
-      this.#pass('glanz rehearsal', (pass) => this.#run(pass, name, kernel, { indirect: 0 }));
+      this.#pass('glanz rehearsal', (pass) => this.#run(pass, kernel, { indirect: 0 }));
   }
 
   /** The kernels are there, for the features that it was made with. */
@@ -206,14 +212,22 @@ export class Integrator {
       this.#memory.release(this.#buffers[name]);
       this.#buffers[name] = buffer;
     }
-    this.rebind();
+    this.rebind('launch');
   }
 
-  /** To be called when buffers or textures of the scene or the film were replaced. */
-  rebind(film: Film = this.#film): void {
-    this.#film = film;
+  /**
+   * To be called when buffers or textures of the scene or the film were replaced.
+   * @param group What they belong to; by default all is bound again, as after the GPU has refused something.
+   */
+  rebind(group?: BindGroupName): void {
+    for (const name of group ? [group] : (Object.keys(this.#groups) as BindGroupName[])) this.#groups[name].clear();
     this.#aovs = undefined;
-    this.#groups.clear();
+  }
+
+  /** From now on paths go to this film. */
+  useFilm(film: Film): void {
+    this.#film = film;
+    this.rebind('film');
   }
 
   writeFrame(frame: ArrayBuffer): void {
@@ -280,7 +294,7 @@ export class Integrator {
     const recorded = features.flags.AOVS === true && batch.sampleOffset < aovs.end;
     this.#pass('glanz batch', (pass) => {
       const run = (name: KernelName, work: number | { readonly indirect: number }) =>
-        this.#run(pass, name, kernels[name] as Kernel, work);
+        this.#run(pass, kernels[name] as Kernel, work);
       run('begin', 1);
       run('generate', Math.ceil(paths / 64));
       // Kernels end at once in threads beyond the paths that are left.
@@ -308,14 +322,13 @@ export class Integrator {
   /** Runs a kernel that has a thread for each pixel of the batch. */
   submitPixels(name: KernelName, kernel: Kernel, batch: Batch): void {
     this.#writeBatch(batch);
-    this.#pass(`glanz ${name}`, (pass) => this.#run(pass, name, kernel, Math.ceil(batch.pixelCount / 64)));
+    this.#pass(`glanz ${name}`, (pass) => this.#run(pass, kernel, Math.ceil(batch.pixelCount / 64)));
   }
 
   /** Runs the kernel that sums up noise, a workgroup a tile. */
   submitTiles(kernel: Kernel, columns: number, rows: number): void {
     this.#pass('glanz noise', (pass) => {
-      pass.setPipeline(kernel.pipeline);
-      pass.setBindGroup(0, this.#group('noise', kernel));
+      this.#bind(pass, kernel);
       pass.dispatchWorkgroups(columns, rows);
     });
   }
@@ -323,19 +336,14 @@ export class Integrator {
   #pass(label: string, encode: (pass: GPUComputePassEncoder) => void): void {
     const encoder = this.#device.createCommandEncoder({ label });
     const pass = encoder.beginComputePass({ label });
+    this.#bound = [];
     encode(pass);
     pass.end();
     this.#device.queue.submit([encoder.finish()]);
   }
 
-  #run(
-    pass: GPUComputePassEncoder,
-    name: KernelName,
-    kernel: Kernel,
-    work: number | { readonly indirect: number },
-  ): void {
-    pass.setPipeline(kernel.pipeline);
-    pass.setBindGroup(0, this.#group(name, kernel));
+  #run(pass: GPUComputePassEncoder, kernel: Kernel, work: number | { readonly indirect: number }): void {
+    this.#bind(pass, kernel);
     if (typeof work === 'number') pass.dispatchWorkgroups(work);
     else pass.dispatchWorkgroupsIndirect(this.#buffers.dispatch, work.indirect);
   }
@@ -363,25 +371,33 @@ export class Integrator {
     this.#aovs = aovs;
   }
 
-  #group(name: KernelName, kernel: Kernel): GPUBindGroup {
-    let group = this.#groups.get(name);
-    if (!group) {
-      const names = [...kernel.resources, ...kernel.sceneBindings.map(([binding]) => binding)];
-      const entries = names.map((resource, binding) => {
-        const own = (this.#buffers as Record<string, GPUBuffer>)[resource];
-        const film = own ? undefined : this.#film.buffer(resource);
-        const found = own
-          ? { buffer: own }
-          : film
-            ? { buffer: film, size: this.#film.bytes(film) }
-            : this.#scene.resource(resource);
-        if (!found)
-          throw new DeviceError('renderer/gpu-error', `Kernel "${name}" wants "${resource}", which nothing provides.`);
-        return { binding, resource: found };
-      });
-      group = this.#device.createBindGroup({ label: `glanz ${name}`, layout: kernel.layout, entries });
-      this.#groups.set(name, group);
-    }
-    return group;
+  /** Sets a kernel, and those of its bind groups that the one before had otherwise. */
+  #bind(pass: GPUComputePassEncoder, kernel: Kernel): void {
+    pass.setPipeline(kernel.pipeline);
+    this.#groupsOf(kernel).forEach((group, index) => {
+      if (this.#bound[index] === group) return;
+      pass.setBindGroup(index, group);
+      this.#bound[index] = group;
+    });
+  }
+
+  #groupsOf(kernel: Kernel): GPUBindGroup[] {
+    return kernel.groups.map((group, index) => {
+      const made = this.#groups[group.group];
+      let found = made.get(group.key);
+      if (!found) {
+        const layout = kernel.layouts[index] as GPUBindGroupLayout;
+        found = createBindGroup(this.#device, layout, group, (name) => this.#resource(name));
+        made.set(group.key, found);
+      }
+      return found;
+    });
+  }
+
+  #resource(name: string): GPUBindingResource | undefined {
+    const own = (this.#buffers as Record<string, GPUBuffer>)[name];
+    if (own) return { buffer: own };
+    const film = this.#film.buffer(name);
+    return film ? { buffer: film, size: this.#film.bytes(film) } : this.#scene.resource(name);
   }
 }

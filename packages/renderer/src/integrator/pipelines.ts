@@ -21,7 +21,14 @@ import media from '../materials/media.wesl';
 import mediaFront from '../materials/media_front.wesl';
 import areaLightGathering from '../lights/area_light_gathering.wesl';
 import lights from '../lights/lights.wesl';
-import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../storage/resources';
+import {
+  bindGroupLayouts,
+  bindingModule,
+  kernelBindings,
+  type KernelBindings,
+  type ResourceName,
+  type SceneBinding,
+} from '../storage/resources';
 import resolve from '../film/resolve.wesl';
 import shade from './shade.wesl';
 import straight from '../materials/straight.wesl';
@@ -75,12 +82,12 @@ export const KERNELS = [
 ] as const;
 export type KernelName = (typeof KERNELS)[number];
 
-/** A compiled kernel and the names of what it binds, in order. */
+/** A compiled kernel and what it binds. */
 export interface Kernel {
   readonly pipeline: GPUComputePipeline;
-  readonly layout: GPUBindGroupLayout;
-  readonly resources: readonly ResourceName[];
-  readonly sceneBindings: readonly SceneBinding[];
+  /** Its bind groups, and the layout of each. */
+  readonly groups: KernelBindings;
+  readonly layouts: readonly GPUBindGroupLayout[];
 }
 
 interface KernelText {
@@ -249,6 +256,17 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   }
 }
 
+/** What one kernel binds for a scene's features. */
+export function bindingsOf(name: KernelName, features: KernelFeatures): KernelBindings {
+  const { resources, textures } = kernelText(name, features);
+  return kernelBindings(resources, textures ? sceneBindings(features) : []);
+}
+
+const sceneBindings = ({ textureCount, samplerCount }: KernelFeatures): SceneBinding[] => [
+  ...Array.from({ length: textureCount }, (_, i) => [`scene_texture_${i}`, 'texture_2d_array'] as const),
+  ...Array.from({ length: samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
+];
+
 /** A kernel before it is compiled. Kernels of equal `key` are the same, whatever scenes they were composed for. */
 export interface KernelSource {
   readonly key: string;
@@ -262,37 +280,32 @@ export interface KernelSource {
 /** The text of one kernel for a scene's features. */
 export function kernelSource(name: KernelName, features: KernelFeatures): KernelSource {
   const text = kernelText(name, features);
-  const sceneBindings: SceneBinding[] = text.textures
-    ? [
-        ...Array.from({ length: features.textureCount }, (_, i) => [`scene_texture_${i}`, 'texture_2d_array'] as const),
-        ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
-      ]
-    : [];
   const own = text.flags ?? features.flags;
   const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true, PLANES: features.planes > 1 };
-  const bindings = bindingModule(name, text.resources, sceneBindings, flags);
+  const groups = kernelBindings(text.resources, text.textures ? sceneBindings(features) : []);
+  const bindings = bindingModule(name, groups, flags);
   const host = (text.host ?? []).filter((module) => !!module);
   const shader = compose([bindings, ...host, text.root], { flags });
   return {
     key: `${name}\n${shader.code}`,
     async compile(device) {
       const { result, verified } = inErrorScopes(device, `the kernel "${name}"`, () => {
-        const layout = bindGroupLayout(device, name, text.resources, sceneBindings);
+        const layouts = bindGroupLayouts(device, name, groups);
         const { module, checked } = beginShaderModule(device, shader, `glanz ${name}`);
         // Asked for at once, so that the driver works while the next kernel's text is read.
         const compiled = device.createComputePipelineAsync({
           label: `glanz ${name}`,
-          layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: [layout] }),
+          layout: device.createPipelineLayout({ label: `glanz ${name}`, bindGroupLayouts: layouts }),
           compute: { module, entryPoint: 'main' },
         });
         compiled.catch(() => {});
-        return { layout, checked, compiled };
+        return { layouts, checked, compiled };
       });
-      const { layout, checked, compiled } = result;
+      const { layouts, checked, compiled } = result;
       await checked;
       await verified;
       try {
-        return { pipeline: await compiled, layout, resources: text.resources, sceneBindings };
+        return { pipeline: await compiled, groups, layouts };
       } catch (cause) {
         throw await lossOr(
           device,

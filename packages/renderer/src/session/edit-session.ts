@@ -87,13 +87,13 @@ export class EditSession {
     const takeBack = () => {
       edit.undo();
       change.rewrite?.();
-      if (edit.result) integrator.rebind();
+      if (edit.result) integrator.rebind('scene');
     };
     if (edit.allocated) {
       await this.#hold(verified, takeBack);
       if (memory.destroyed) return;
     }
-    if (edit.result) integrator.rebind();
+    if (edit.result) integrator.rebind('scene');
     const { effect = 'invalidates' } = change;
     if (effect !== 'keeps') restart();
     const made: Made = { effect, settle: edit.settle, takeBack };

@@ -148,7 +148,7 @@ export class FilmSession {
   /** Share of the film's width and height that is rendered, see `PathTracer.setRenderScale`. Restart afterwards. */
   set renderScale(scale: number) {
     this.#film.scale = scale;
-    this.#host.integrator.rebind();
+    this.#host.integrator.rebind('film');
   }
 
   /** Puts another film in place of the one there is, which is freed. */
@@ -156,7 +156,7 @@ export class FilmSession {
     this.#film.destroy();
     this.#film = film;
     this.#sampling = undefined;
-    this.#host.integrator.rebind(film);
+    this.#host.integrator.useFilm(film);
   }
 
   /** See `PathTracer.render`. */

@@ -12,6 +12,7 @@ import type { GpuScene } from '../scene/gpu-scene';
 import type { KernelCache } from '../integrator/kernel-cache';
 import { forBands } from '../integrator/bands';
 import { batchStruct } from '../storage/layout';
+import { createBindGroup } from '../storage/resources';
 import type { Kernel, KernelFeatures } from '../integrator/pipelines';
 import type { TracerSettings } from '../option-checks';
 import type { FirstLight } from '../options';
@@ -60,11 +61,11 @@ export function showFirstLight(
       batch: memory.buffer('first batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       beauty: memory.buffer('first image', 16 * width * height, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC),
     };
-    const entries = kernel.resources.map((name, binding) => ({
-      binding,
-      resource: own[name] ? { buffer: own[name] } : (scene.resource(name) as GPUBindingResource),
-    }));
-    const group = device.createBindGroup({ label: 'glanz first', layout: kernel.layout, entries });
+    const groups = kernel.groups.map((group, index) =>
+      createBindGroup(device, kernel.layouts[index] as GPUBindGroupLayout, group, (name) =>
+        own[name] ? { buffer: own[name] } : scene.resource(name),
+      ),
+    );
     forBands(width * height, ({ pixelOffset, pixelCount }) => {
       const data = batchStruct.allocate();
       batchStruct.write(data, 0, { pixel_offset: pixelOffset, pixel_count: pixelCount, path_count: pixelCount });
@@ -72,7 +73,7 @@ export function showFirstLight(
       const encoder = device.createCommandEncoder({ label: 'glanz first' });
       const pass = encoder.beginComputePass();
       pass.setPipeline(kernel.pipeline);
-      pass.setBindGroup(0, group);
+      groups.forEach((group, index) => pass.setBindGroup(index, group));
       pass.dispatchWorkgroups(Math.ceil(pixelCount / 64));
       pass.end();
       device.queue.submit([encoder.finish()]);

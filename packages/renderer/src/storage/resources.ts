@@ -1,4 +1,5 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
+import { DeviceError } from '../errors';
 import { GPU_STAGE_COMPUTE } from './buffers';
 import { AovBatch, Batch, BvhNode, Frame, Instance, Light, Material, shadowRecords } from './layout';
 import queues from './queues.wesl';
@@ -6,10 +7,6 @@ import queues from './queues.wesl';
 /** Light groups that an image may have. */
 export const MAX_LIGHT_GROUPS = 16;
 
-/**
- * What a kernel may bind, described once: the WGSL declaration and the bind group layout entry come from the same row.
- * Textures of the scene are added by the material module, since their number depends on the scene.
- */
 type Flags = Readonly<Record<string, boolean>>;
 
 interface Resource {
@@ -22,14 +19,21 @@ interface Resource {
   readonly layout?: (flags: Flags) => { readonly module: WgslModule };
 }
 
-const RESOURCES = {
+/** What batches of paths work with. Replaced when more paths are kept at once. */
+const LAUNCH = {
   frame: { type: 'Frame', space: 'uniform', deps: [Frame] },
   batch: { type: 'Batch', space: 'uniform', deps: [Batch] },
+  aov_batch: { type: 'AovBatch', space: 'uniform', deps: [AovBatch] },
+  light_groups: { type: `array<vec4f, ${2 * MAX_LIGHT_GROUPS}>`, space: 'uniform' },
   // Its layout depends on the scene: the kernels bring it with `pathLayout`.
   paths: { type: 'array<PathBlock>', space: 'read_write' },
   queues: { type: 'Queues', space: 'read_write', deps: [queues] },
   shadows: { type: 'array<ShadowBlock>', space: 'read_write', layout: shadowRecords },
   dispatch: { type: 'array<u32, 8>', space: 'read_write' },
+} as const satisfies Record<string, Resource>;
+
+/** Replaced by edits that need more memory, or another texture. Textures of its materials come after these. */
+const SCENE = {
   nodes: { type: 'array<BvhNode>', space: 'read', deps: [BvhNode] },
   triangles: { type: 'array<vec4f>', space: 'read' },
   instances: { type: 'array<Instance>', space: 'read', deps: [Instance] },
@@ -42,72 +46,130 @@ const RESOURCES = {
   energy_dielectric: { type: 'texture_3d<f32>', space: 'texture_3d' },
   energy_conductor: { type: 'texture_2d<f32>', space: 'texture_2d' },
   energy_sampler: { type: 'sampler', space: 'sampler' },
+} as const satisfies Record<string, Resource>;
+
+/** Replaced when the film changes its size or scale. */
+const FILM = {
   film_block: { type: 'array<vec4f>', space: 'read_write' },
   film_total: { type: 'array<vec4f>', space: 'read_write' },
   film_moment: { type: 'array<vec4f>', space: 'read_write' },
   film_noise: { type: 'array<vec4f>', space: 'read_write' },
   film_pixels: { type: 'array<u32>', space: 'read' },
-  light_groups: { type: `array<vec4f, ${2 * MAX_LIGHT_GROUPS}>`, space: 'uniform' },
   beauty: { type: 'array<vec4f>', space: 'read_write' },
-  aov_batch: { type: 'AovBatch', space: 'uniform', deps: [AovBatch] },
   aov_albedo: { type: 'array<vec4f>', space: 'read_write' },
   aov_normal: { type: 'array<vec4f>', space: 'read_write' },
   aov_position: { type: 'array<vec4f>', space: 'read_write' },
   aov_ids: { type: 'array<vec4u>', space: 'read_write' },
 } as const satisfies Record<string, Resource>;
 
-export type ResourceName = keyof typeof RESOURCES;
+/**
+ * What kernels may bind, described once: WGSL declarations and the entries of bind group layouts come from the same row.
+ * A row's place is its number in its group. Groups are made by how often they are replaced; their order here is that of
+ * their numbers, which leaves kernels no empty group but that of the scene.
+ */
+const GROUPS = { launch: LAUNCH, scene: SCENE, film: FILM } as const;
+
+/** Which bind group a resource belongs to. */
+export type BindGroupName = keyof typeof GROUPS;
+
+export type ResourceName = keyof typeof LAUNCH | keyof typeof SCENE | keyof typeof FILM;
 
 /** Scene textures and samplers that a kernel binds in addition, in order: `[name, kind]`. */
 export type SceneBinding = readonly [name: string, kind: 'texture_2d_array' | 'sampler'];
 
-/** The declarations of a kernel's bindings, all in group 0, numbered in order. */
-export function bindingModule(
-  kernel: string,
-  names: readonly ResourceName[],
-  extra: readonly SceneBinding[],
-  flags: Flags,
-): WgslModule {
-  const lines = names.map((name, index) => {
-    const { type, space } = RESOURCES[name] as Resource;
-    const qualifier =
-      space === 'uniform'
-        ? '<uniform>'
-        : space === 'read'
-          ? '<storage, read>'
-          : space === 'read_write'
-            ? '<storage, read_write>'
-            : '';
-    return `@group(0) @binding(${index}) var${qualifier} ${name}: ${type};`;
-  });
-  extra.forEach(([name, kind], index) => {
-    lines.push(
-      `@group(0) @binding(${names.length + index}) var ${name}: ${kind === 'sampler' ? 'sampler' : 'texture_2d_array<f32>'};`,
+/** A resource that a kernel binds. */
+export interface KernelBinding extends Pick<Resource, 'type' | 'space' | 'deps' | 'layout'> {
+  readonly name: string;
+  readonly binding: number;
+}
+
+/** The bind groups of a kernel by their numbers, up to the last one that it uses. */
+export type KernelBindings = readonly {
+  readonly group: BindGroupName;
+  /** Equal for groups that bind the same. */
+  readonly key: string;
+  readonly bindings: readonly KernelBinding[];
+}[];
+
+/**
+ * What a kernel binds, and where.
+ *
+ * @param names Its resources, in any order.
+ * @param extra Textures and samplers of the scene.
+ */
+export function kernelBindings(names: readonly ResourceName[], extra: readonly SceneBinding[]): KernelBindings {
+  const groups = (Object.entries(GROUPS) as [BindGroupName, Record<string, Resource>][]).map(([group, table]) => {
+    const rows = Object.entries(table);
+    const bindings: KernelBinding[] = rows.flatMap(([name, row], binding) =>
+      (names as readonly string[]).includes(name) ? [{ name, binding, ...row }] : [],
     );
+    if (group === 'scene')
+      extra.forEach(([name, space], index) =>
+        bindings.push({
+          name,
+          binding: rows.length + index,
+          space,
+          type: space === 'sampler' ? space : 'texture_2d_array<f32>',
+        }),
+      );
+    return { group, key: bindings.map(({ name }) => name).join(' '), bindings };
   });
-  const structs = names.flatMap((name) => {
-    const { deps = [], layout } = RESOURCES[name] as Resource;
-    return layout ? [...deps, layout(flags).module] : deps;
-  });
+  while (groups.at(-1)?.bindings.length === 0) groups.pop();
+  return groups;
+}
+
+const QUALIFIERS: Partial<Record<Resource['space'], string>> = {
+  uniform: '<uniform>',
+  read: '<storage, read>',
+  read_write: '<storage, read_write>',
+};
+
+/** The declarations of a kernel's bindings. */
+export function bindingModule(kernel: string, groups: KernelBindings, flags: Flags): WgslModule {
+  const lines = groups.flatMap(({ bindings }, group) =>
+    bindings.map(
+      ({ name, binding, type, space }) =>
+        `@group(${group}) @binding(${binding}) var${QUALIFIERS[space] ?? ''} ${name}: ${type};`,
+    ),
+  );
+  const structs = groups.flatMap(({ bindings }) =>
+    bindings.flatMap(({ deps = [], layout }) => (layout ? [...deps, layout(flags).module] : deps)),
+  );
   return wgslModule(`renderer/${kernel}-bindings`, lines.join('\n'), structs);
 }
 
-/** The bind group layout that matches {@link bindingModule}. */
-export function bindGroupLayout(
-  device: GPUDevice,
-  kernel: string,
-  names: readonly ResourceName[],
-  extra: readonly SceneBinding[],
-): GPUBindGroupLayout {
-  const entries: GPUBindGroupLayoutEntry[] = names.map((name, binding) => ({
-    binding,
-    visibility: GPU_STAGE_COMPUTE,
-    ...layoutEntry((RESOURCES[name] as Resource).space),
-  }));
-  extra.forEach(([, kind], index) =>
-    entries.push({ binding: names.length + index, visibility: GPU_STAGE_COMPUTE, ...layoutEntry(kind) }),
+/** The bind group layouts that match {@link bindingModule}, by the numbers of the groups. */
+export function bindGroupLayouts(device: GPUDevice, kernel: string, groups: KernelBindings): GPUBindGroupLayout[] {
+  return groups.map(({ group, bindings }) =>
+    device.createBindGroupLayout({
+      label: `glanz ${kernel} ${group}`,
+      entries: bindings.map(({ binding, space }) => ({
+        binding,
+        visibility: GPU_STAGE_COMPUTE,
+        ...layoutEntry(space),
+      })),
+    }),
   );
-  return device.createBindGroupLayout({ label: `glanz ${kernel}`, entries });
+}
+
+/**
+ * A bind group of a kernel.
+ *
+ * @param find Where resources are looked up.
+ * @throws {DeviceError} `renderer/gpu-error` for one that is not found
+ */
+export function createBindGroup(
+  device: GPUDevice,
+  layout: GPUBindGroupLayout,
+  { group, bindings }: KernelBindings[number],
+  find: (name: string) => GPUBindingResource | undefined,
+): GPUBindGroup {
+  const entries = bindings.map(({ name, binding }) => {
+    const resource = find(name);
+    if (!resource) throw new DeviceError('renderer/gpu-error', `A kernel asks for "${name}", which nothing provides.`);
+    return { binding, resource };
+  });
+  return device.createBindGroup({ label: `glanz ${group}`, layout, entries });
 }
 
 function layoutEntry(space: Resource['space']): Omit<GPUBindGroupLayoutEntry, 'binding' | 'visibility'> {

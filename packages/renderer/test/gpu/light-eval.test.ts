@@ -18,7 +18,14 @@ import { packFrame } from '../../src/session/frame';
 import { GpuMemory } from '../../src/storage/buffers';
 import { batchStruct, LIGHT_ID_ENVIRONMENT, NONE } from '../../src/storage/layout';
 import { readFloats } from '../../src/storage/read-buffer';
-import { bindGroupLayout, bindingModule, type ResourceName, type SceneBinding } from '../../src/storage/resources';
+import {
+  bindGroupLayouts,
+  bindingModule,
+  createBindGroup,
+  kernelBindings,
+  type ResourceName,
+  type SceneBinding,
+} from '../../src/storage/resources';
 import { allLights } from '../light-scene';
 import { camera } from '../scenes';
 import { random, randomUnit } from '../tree-lights';
@@ -52,8 +59,8 @@ const RESOURCES: readonly ResourceName[] = [
 
 /** Of each query: a light sample; the choice that it makes; what that gives by `light_eval`. */
 const MAIN = /* wgsl */ `
-@group(3) @binding(0) var<storage, read> queries: array<vec4f>;
-@group(3) @binding(1) var<storage, read_write> results: array<vec4f>;
+@group(2) @binding(0) var<storage, read> queries: array<vec4f>;
+@group(2) @binding(1) var<storage, read_write> results: array<vec4f>;
 fn write(at: u32, light: LightSample) {
   results[at] = vec4f(light.direction, light.distance);
   results[at + 1u] = vec4f(light.radiance, light.pdf);
@@ -116,9 +123,10 @@ class LightHost {
       ...Array.from({ length: features.textureCount }, (_, i) => [`scene_texture_${i}`, 'texture_2d_array'] as const),
       ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),
     ];
+    const groups = kernelBindings(RESOURCES, extra);
     const cases = flags.TEXTURES && materialCases(features.samplings, features.textured, flags);
     const main = wgslModule('test/light-eval', MAIN, [
-      bindingModule('test', RESOURCES, extra, flags),
+      bindingModule('test', groups, flags),
       bvhOffset,
       ...(cases ? [cases] : []),
       openpbr,
@@ -127,8 +135,7 @@ class LightHost {
     ]);
     const module = device.createShaderModule({ code: compose([main], { flags }).code });
     const own = { frame: packFrame(camera, SIZE, scene, geometry, options), batch: batchStruct.allocate() };
-    const layout = bindGroupLayout(device, 'test', RESOURCES, extra);
-    const empty = device.createBindGroupLayout({ entries: [] });
+    const layouts = bindGroupLayouts(device, 'test', groups);
     const io = device.createBindGroupLayout({
       entries: (['read-only-storage', 'storage'] as const).map((type, binding) => ({
         binding,
@@ -137,7 +144,7 @@ class LightHost {
       })),
     });
     const pipeline = await device.createComputePipelineAsync({
-      layout: device.createPipelineLayout({ bindGroupLayouts: [layout, empty, empty, io] }),
+      layout: device.createPipelineLayout({ bindGroupLayouts: [...layouts, io] }),
       compute: { module, entryPoint: 'main' },
     });
     const data = new Float32Array(queries.length * QUERY * 4);
@@ -145,22 +152,17 @@ class LightHost {
       data.set([...draws, id ?? 0, id === undefined ? 0 : 1, ...position, 0, ...normal, 0], i * QUERY * 4),
     );
     const results = memory.buffer('results', 16 * RESULT * queries.length, 0x80 | 0x4);
-    const entries = [...RESOURCES, ...extra.map(([name]) => name)].map((name, binding) => ({
-      binding,
-      resource:
-        name === 'frame' || name === 'batch'
-          ? { buffer: memory.upload(name, own[name], GPUBufferUsage.UNIFORM) }
-          : scene.resource(name)!,
-    }));
+    const find = (name: string) =>
+      name === 'frame' || name === 'batch'
+        ? { buffer: memory.upload(name, own[name], GPUBufferUsage.UNIFORM) }
+        : scene.resource(name);
     const encoder = device.createCommandEncoder();
     const pass = encoder.beginComputePass();
     pass.setPipeline(pipeline);
-    pass.setBindGroup(0, device.createBindGroup({ layout, entries }));
-    pass.setBindGroup(1, device.createBindGroup({ layout: empty, entries: [] }));
-    pass.setBindGroup(2, device.createBindGroup({ layout: empty, entries: [] }));
+    groups.forEach((group, index) => pass.setBindGroup(index, createBindGroup(device, layouts[index]!, group, find)));
     const queryBuffer = memory.upload('queries', data, GPUBufferUsage.STORAGE);
     pass.setBindGroup(
-      3,
+      groups.length,
       device.createBindGroup({
         layout: io,
         entries: [queryBuffer, results].map((buffer, binding) => ({ binding, resource: { buffer } })),
