@@ -39,6 +39,7 @@ function bindImage(
   width: number,
   height: number,
   limit: number,
+  alpha: boolean,
 ): BoundImage {
   const {
     buffer,
@@ -54,8 +55,8 @@ function bindImage(
       'denoise/input',
       `"${name}" cannot have the offset ${offset}, pixelStride ${pixelStride} and rowStride ${rowStride}: the offset is a multiple of 4, a pixel has 3 floats or more, and a row ${width} pixels.`,
     );
-  // The last pixel needs no more than three floats, unless there is a fourth.
-  const floats = (height - 1) * rowStride + (width - 1) * pixelStride + Math.min(pixelStride, 4);
+  // Of the last pixel no more has to be there than is used: images may lie between each other.
+  const floats = (height - 1) * rowStride + (width - 1) * pixelStride + (alpha && pixelStride >= 4 ? 4 : 3);
   if (offset + 4 * floats > buffer.size)
     throw new DenoiseError(
       'denoise/input',
@@ -91,7 +92,7 @@ export function bindImages(
     throw new DenoiseError('denoise/option', `The scale ${scale} is not a positive number.`);
   const guide = input === 'albedo' || input === 'normal';
   const limit = limits.maxStorageBufferBindingSize;
-  const bind = (name: 'color' | 'albedo' | 'normal' | 'output', channels: number) => {
+  const bind = (name: 'color' | 'albedo' | 'normal' | 'output', channels: number, alpha = false) => {
     if (network.channels < channels) return undefined;
     const image = images[name];
     if (!image)
@@ -99,12 +100,12 @@ export function bindImages(
         'denoise/input',
         `"${name}" is missing: the network takes ${network.channels} channels. Pass it, or use the weights of a network without it.`,
       );
-    return bindImage(name, image, width, height, limit);
+    return bindImage(name, image, width, height, limit, alpha);
   };
-  const main = bind(guide ? input : 'color', 3)!;
+  const output = bind('output', 3, true)!;
+  const main = bind(guide ? input : 'color', 3, output.layout[3] === 1)!;
   const albedo = bind('albedo', 6);
   const normal = bind('normal', 9);
-  const output = bind('output', 3)!;
   for (const [name, image] of Object.entries({ main, albedo, normal }))
     if (image?.window.buffer === output.window.buffer)
       throw new DenoiseError(

@@ -268,6 +268,33 @@ describe('images in buffers', () => {
     denoiser.destroy();
   });
 
+  it('may lie between each other in one buffer', async () => {
+    const [width, height] = [21, 18];
+    const { images, result } = bind(width, height);
+    const denoiser = await Denoiser.create(device, weights);
+    await denoiser.denoise(images);
+    const expected = (await result()).filter((_, i) => i % 4 < 3);
+    const { color, albedo, normal } = randomImages(width, height);
+    const together = new Float32Array(9 * width * height);
+    for (const [k, one] of [color, albedo, normal].entries())
+      for (let i = 0; i < one.length; i++) together[9 * Math.floor(i / 3) + 3 * k + (i % 3)] = one[i]!;
+    const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC;
+    const buffer = device.createBuffer({ size: together.byteLength, usage });
+    device.queue.writeBuffer(buffer, 0, together);
+    const output = device.createBuffer({ size: 12 * width * height, usage });
+    const part = (first: number) => ({ buffer, offset: 4 * first, pixelStride: 9 });
+    await denoiser.denoise({
+      color: part(0),
+      albedo: part(3),
+      normal: part(6),
+      output: { buffer: output, pixelStride: 3 },
+      width,
+      height,
+    });
+    expect(await download(device, output)).toEqual(expected);
+    denoiser.destroy();
+  });
+
   it('are checked', async () => {
     const { images } = bind(24, 24);
     const denoiser = await Denoiser.create(device, weights);
