@@ -3,4 +3,5 @@ import { glanzPackage } from '../../tsup.base';
 export default glanzPackage({
   index: 'src/index.ts',
   cpu: 'src/cpu/index.ts',
+  film: 'src/film/index.ts',
 });
