@@ -49,6 +49,7 @@ const ALL: OpenPbrFlags = {
   OPENPBR_COAT: true,
   OPENPBR_THIN_FILM: true,
   OPENPBR_FUZZ: true,
+  OPENPBR_LAYERED: true,
   OPENPBR_DIFFUSE: true,
   OPENPBR_COSINE: true,
   OPENPBR_DIFFUSE_ROUGHNESS: true,

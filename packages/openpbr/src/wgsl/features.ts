@@ -45,6 +45,8 @@ export interface OpenPbrFlags {
   readonly OPENPBR_THIN_FILM: boolean;
   /** A layer of fibres over everything else. */
   readonly OPENPBR_FUZZ: boolean;
+  /** Layers over the base: OPENPBR_COAT or OPENPBR_FUZZ. */
+  readonly OPENPBR_LAYERED: boolean;
   readonly OPENPBR_DIFFUSE: boolean;
   /**
    * Directions are sampled by the cosine too: OPENPBR_DIFFUSE, or OPENPBR_METAL or OPENPBR_DIELECTRIC with
@@ -98,6 +100,7 @@ export function requiredFeatures(
         film(p) || (p.specular_weight > 0 && (p.specular_ior !== 1 || isTextured('specular_ior') || p.coat_weight > 0)),
     );
   const coat = all.some((p) => p.coat_weight > 0);
+  const fuzz = all.some((p) => p.fuzz_weight > 0);
   const opaque = solid.filter((p) => p.subsurface_weight < 1 || isTextured('subsurface_weight'));
   const diffuse = thinBelow || opaque.some((p) => p.base_weight > 0 && p.base_color.some((c) => c > 0));
   const specular = metal || dielectric || coat;
@@ -144,7 +147,8 @@ export function requiredFeatures(
     OPENPBR_LOSSES: metal || thin || inner,
     OPENPBR_COAT: coat,
     OPENPBR_THIN_FILM: specular && all.some(film),
-    OPENPBR_FUZZ: all.some((p) => p.fuzz_weight > 0),
+    OPENPBR_FUZZ: fuzz,
+    OPENPBR_LAYERED: coat || fuzz,
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: diffuse && solid.some((p) => p.base_diffuse_roughness > 0),
