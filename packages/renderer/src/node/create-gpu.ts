@@ -2,7 +2,7 @@ import { DeviceError } from '../errors';
 import { isSoftware } from '../device/software';
 import { lavapipeVersion, type GpuDescription } from './adapter-info';
 import { createPinned, firstLine, listAdapters, loadDawn, type Dawn } from './dawn';
-import { packagedSwiftShader } from './swiftshader';
+import { packagedSwiftShader } from './swiftshader/unpack';
 import {
   canSwitchDrivers,
   chromiumSwiftShaders,

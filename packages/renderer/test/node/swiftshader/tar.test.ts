@@ -3,7 +3,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
-import { readTar } from '../../src/node/tar';
+import { readTar } from '../../../src/node/swiftshader/tar';
 
 /** An archive by the system's own tar. */
 function archive(files: Record<string, Uint8Array>): Uint8Array {

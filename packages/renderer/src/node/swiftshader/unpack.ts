@@ -4,7 +4,7 @@ import { homedir, tmpdir } from 'node:os';
 import { basename, dirname, join } from 'node:path';
 import { brotliDecompressSync } from 'node:zlib';
 import { readTar } from './tar';
-import type { VulkanDriver } from './vulkan-driver';
+import type { VulkanDriver } from '../vulkan-driver';
 
 const PACKAGE = '@sparticuz/chromium';
 const ICD = 'vk_swiftshader_icd.json';
