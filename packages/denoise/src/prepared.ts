@@ -10,6 +10,9 @@ import type { Tiling } from './tiles';
 /** Multiply-adds that take as long as encoding a pixel, roughly. */
 const ENCODE_COST = 200;
 
+/** Milliseconds between two returns to the event loop. */
+const SLICE_MS = 12;
+
 /** A layer that is ready to be dispatched. */
 interface ReadyLayer {
   readonly plan: LayerPlan;
@@ -86,7 +89,14 @@ export class Prepared {
     const prepared = new Prepared(device, kernels, await kernels.prelude(), size, tiled, buffers);
     try {
       await Promise.all(tiled.plan.layers.map((layer) => kernels.convolution(layer)));
-      for (const layer of tiled.plan.layers) prepared.#layers.push(await prepared.#ready(layer));
+      let since = performance.now();
+      for (const layer of tiled.plan.layers) {
+        prepared.#layers.push(await prepared.#ready(layer));
+        // Weights are packed on the calling thread, which has other things to do as well.
+        if (performance.now() - since < SLICE_MS) continue;
+        await new Promise((resolve) => setTimeout(resolve));
+        since = performance.now();
+      }
     } catch (error) {
       prepared.destroy();
       throw error;
