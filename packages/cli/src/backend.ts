@@ -1,6 +1,8 @@
 import type { FilmLayer, FilmState, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
+import type { DenoiseQuality } from '@glanz/denoise/film';
 import type { CompressedFormat, Scene } from '@glanz/scene';
 import type { PoseOptions } from './options';
+import type { ImageDenoiser } from './denoise';
 
 /** The part of a `PathTracer` that the command needs. */
 export type Tracer = Pick<
@@ -71,9 +73,11 @@ export interface Backend {
   listGpus(): Promise<readonly ListedGpu[]>;
   createTracer(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<Tracer>;
   filmCodec(): Promise<FilmCodec>;
+  /** @throws {CliError} `cli/missing-package` */
+  createDenoiser(device: GPUDevice, quality: DenoiseQuality, signal: AbortSignal): Promise<ImageDenoiser>;
 }
 
-export type { FilmLayer, FilmState, PathTracerOptions, RenderStatistics };
+export type { DenoiseQuality, FilmLayer, FilmState, ImageDenoiser, PathTracerOptions, RenderStatistics };
 
 /** The renderer on Dawn, the loaders with sharp. */
 export function nodeBackend(): Backend {
@@ -110,6 +114,10 @@ export function nodeBackend(): Backend {
     async createTracer(device, scene, options) {
       const { PathTracer } = await import('@glanz/renderer');
       return PathTracer.create(device, scene, options);
+    },
+    async createDenoiser(device, quality, signal) {
+      const { createImageDenoiser } = await import('./denoise');
+      return createImageDenoiser(device, quality, signal);
     },
     async filmCodec() {
       const film = await import('@glanz/renderer/film');

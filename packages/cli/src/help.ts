@@ -99,6 +99,11 @@ IMAGE
       --catcher PART    Show of this part, a floor say, only the shadows and the
                         light that the others throw on it. May be given
                         several times.
+      --denoise [NAME]  Denoise the image for .png and .hdr, by Open Image
+                        Denoise's networks: fast, balanced (default) or best.
+                        .exr keeps the film and gets the layer denoised. Where
+                        the film's noise is not seen the image stays as it is.
+                        Needs the package @glanz/denoise-weights.
       --exposure EV     Brighten (or darken) by stops, .png only. Default 0.
                         Or as a camera does, for scenes in cd/m2:
                         f/8,1/125,iso200.

@@ -1,5 +1,6 @@
 import { parseArgs, type ParseArgsConfig } from 'node:util';
 import { TONE_MAPS, isToneMap, type ToneMap } from '@glanz/tonemap';
+import type { DenoiseQuality } from '@glanz/denoise/film';
 import { CliError } from './errors';
 import { parseExposure } from './exposure';
 import { formatOf, type OutputTarget } from './output/formats';
@@ -36,6 +37,8 @@ export interface RenderCommandOptions {
   readonly settings: FlagSettings;
   /** Number of the first sample. */
   readonly samplesFrom: number;
+  /** Absent: the film is written as it is. */
+  readonly denoise?: DenoiseQuality;
   readonly exposure: number;
   readonly toneMap: ToneMap;
   /** Names of parts that catch shadows and reflections. */
@@ -90,6 +93,7 @@ const OPTIONS = {
   resume: { type: 'boolean' },
   checkpoint: { type: 'string' },
   'output-root': { type: 'string' },
+  denoise: { type: 'string' },
   exposure: { type: 'string' },
   'tone-map': { type: 'string' },
   tonemap: { type: 'string' },
@@ -162,6 +166,11 @@ export const BATCH_KEYS: Readonly<Record<string, 'text' | 'boolean' | 'list'>> =
 
 const MAX_SIDE = 65536;
 
+/** The values of `--denoise`, from the fastest to the best. */
+export const DENOISE_QUALITIES: readonly DenoiseQuality[] = ['fast', 'balanced', 'best'];
+const isQuality = (text: string | undefined): text is DenoiseQuality =>
+  DENOISE_QUALITIES.includes(text as DenoiseQuality);
+
 /** The error of a command line that cannot be carried out. */
 export const usage = (message: string) => new CliError('cli/usage', message);
 
@@ -190,15 +199,19 @@ export function closest(word: string, words: readonly string[]): string {
   return best && best.d <= Math.max(1, Math.floor(word.length / 3)) ? best.w : '';
 }
 
-/** `--exposure -1` is what people type; parseArgs takes a value that begins with a dash only after `=`. */
-function joinNegativeNumbers(argv: readonly string[]): string[] {
+/**
+ * `--exposure -1` is what people type; parseArgs takes a value that begins with a dash only after `=`. And `--denoise`
+ * alone stands for a quality; parseArgs knows no option whose value may be left out.
+ */
+function completedValues(argv: readonly string[]): string[] {
   const out: string[] = [];
   for (let i = 0; i < argv.length; i++) {
     const [word, next] = [argv[i] as string, argv[i + 1]];
     if (/^--[a-z-]+$/.test(word) && next !== undefined && /^-\.?\d/.test(next)) {
       out.push(`${word}=${next}`);
       i++;
-    } else out.push(word);
+    } else if (word === '--denoise' && !isQuality(next)) out.push('--denoise=balanced');
+    else out.push(word);
   }
   return out;
 }
@@ -206,7 +219,7 @@ function joinNegativeNumbers(argv: readonly string[]): string[] {
 /** Splits the command line into options and positional arguments. @throws {CliError} `cli/usage` */
 export function parseOptions(argv: readonly string[]) {
   try {
-    return parseArgs({ args: joinNegativeNumbers(argv), options: OPTIONS, allowPositionals: true, strict: true });
+    return parseArgs({ args: completedValues(argv), options: OPTIONS, allowPositionals: true, strict: true });
   } catch (cause) {
     const { code, message } = cause as Error & { code?: string };
     const option = /'([^' ]*)/.exec(message)?.[1] ?? '';
@@ -260,6 +273,9 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
   const [width, height] = parseSize(values.size ?? '1024x768');
   const toneMap = values['tone-map'] ?? 'neutral';
   if (!isToneMap(toneMap)) throw usage(`There is no tone map "${toneMap}". Known: ${TONE_MAPS.join(', ')}.`);
+  const { denoise } = values;
+  if (denoise !== undefined && !isQuality(denoise))
+    throw usage(`--denoise must be ${DENOISE_QUALITIES.join(', ')}, not "${denoise}".`);
   const bits = values.bits === undefined ? undefined : number('bits', values.bits, 8, { whole: true, min: 8, max: 32 });
   const files = values.output ?? [defaultOutput(model)];
   for (const file of files) checkPlaceholders(file);
@@ -288,6 +304,7 @@ export function renderOptions(values: RenderValues, model: string): RenderComman
       background: values.background ?? (values.transparent ? 'transparent' : undefined),
     }),
     samplesFrom: number('samples-from', values['samples-from'], 0, { whole: true, min: 0, max: 2147483647 }),
+    ...(denoise === undefined ? {} : { denoise }),
     exposure: values.exposure === undefined ? 0 : parseExposure(values.exposure),
     toneMap,
     catchers: values.catcher ?? [],

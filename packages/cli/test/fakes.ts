@@ -218,6 +218,13 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         })),
       listGpus: fake.listGpus ?? (async () => FAKE_GPUS),
       createTracer,
+      createDenoiser: async (_device, quality) => ({
+        async denoise(tracer) {
+          const beauty = (await (tracer as Tracer).read('beauty')) as Float32Array;
+          return beauty.map((value, i) => (i % 4 === 3 ? value : quality === 'fast' ? 0.5 : 0.125));
+        },
+        destroy: () => void destroyed.push('denoiser'),
+      }),
       filmCodec: async () => ({
         encode: ({ samples, width, height }) => new TextEncoder().encode(JSON.stringify([samples, width, height])),
         decode: (bytes) => filmOf(...(JSON.parse(new TextDecoder().decode(bytes)) as [number, number, number])),

@@ -1,5 +1,5 @@
 import { encodeExr, type ExrLayer } from '@glanz/image/exr';
-import type { RenderedImage } from './image';
+import { denoisedText, type RenderedImage } from './image';
 
 /** One channel out of interleaved data. */
 function plane(data: Float32Array, stride: number, offset: number): Float32Array {
@@ -10,13 +10,14 @@ function plane(data: Float32Array, stride: number, offset: number): Float32Array
 
 /** Linear radiance as R, G, B, A and the feature layers under their names, packed as OpenEXR with ZIP. */
 export function exrFile(
-  { width, height, beauty, layers, samples, software }: RenderedImage,
+  { width, height, beauty, denoised, layers, samples, software }: RenderedImage,
   bits: 16 | 32,
 ): Uint8Array {
   const type = bits === 32 ? 'float' : 'half';
   const rgba = (data: Float32Array, names: string) =>
     Object.fromEntries([...names].map((name, k) => [name, plane(data, 4, k)]));
   const list: ExrLayer[] = [{ name: '', type, channels: rgba(beauty, 'RGBA') }];
+  if (denoised) list.push({ name: 'denoised', type, channels: rgba(denoised.data, 'RGBA') });
   const { albedo, normal, position, variance, depth, lights = [], objectId, materialId } = layers ?? {};
   if (albedo) list.push({ name: 'albedo', type, channels: rgba(albedo, 'RGB') });
   if (normal) list.push({ name: 'normal', type, channels: rgba(normal, 'XYZ') });
@@ -28,5 +29,10 @@ export function exrFile(
     list.push({ name: `light.${name.replaceAll(/[^\w-]+/g, '_')}`, type, channels: rgba(data, 'RGB') });
   if (objectId) list.push({ name: 'objectId', channels: { id: objectId } });
   if (materialId) list.push({ name: 'materialId', channels: { id: materialId } });
-  return encodeExr({ width, height, layers: list, attributes: { software, samples: String(samples) } });
+  return encodeExr({
+    width,
+    height,
+    layers: list,
+    attributes: { software, samples: String(samples), ...denoisedText(denoised, 'denoised') },
+  });
 }

@@ -6,6 +6,8 @@ export interface RenderedImage {
   readonly beauty: Float32Array;
   /** Read on demand: only EXR wants these. An image of merged films has only some of them. */
   readonly layers?: Partial<ImageLayers>;
+  /** The beauty denoised, linear RGBA, and how; what .png and .hdr show, and a layer of .exr. */
+  readonly denoised?: { readonly data: Float32Array; readonly quality: string };
   readonly samples: number;
   readonly software: string;
 }
@@ -28,3 +30,7 @@ export interface ImageLayers {
   readonly objectId: Uint32Array;
   readonly materialId: Uint32Array;
 }
+
+/** What the metadata of a file say of denoising, under a name; nothing of an image that was not denoised. */
+export const denoisedText = (denoised: RenderedImage['denoised'], name: string): Readonly<Record<string, string>> =>
+  denoised ? { [name]: `Open Image Denoise, ${denoised.quality}` } : {};

@@ -1,6 +1,6 @@
 import { encodePng } from '@glanz/image/png';
 import { toneMapPixels, type ToneMap } from '@glanz/tonemap';
-import type { RenderedImage } from './image';
+import { denoisedText, type RenderedImage } from './image';
 
 /** The way to the screen. */
 export interface DisplayOptions {
@@ -16,12 +16,12 @@ export function pngFile(
   bits: 8 | 16,
   { toneMap, exposure, transparent }: DisplayOptions,
 ): Uint8Array {
-  const { width, height, beauty } = image;
-  const data = toneMapPixels(beauty, width, height, {
+  const { width, height, beauty, denoised } = image;
+  const data = toneMapPixels(denoised?.data ?? beauty, width, height, {
     toneMap,
     exposure,
     alpha: transparent ? 'straight' : 'opaque',
     output: bits === 16 ? 'uint16' : 'uint8',
   });
-  return encodePng({ width, height, data, text: { Software: image.software } });
+  return encodePng({ width, height, data, text: { Software: image.software, ...denoisedText(denoised, 'Denoised') } });
 }

@@ -67,7 +67,7 @@ export const isImage = (target: OutputTarget): target is ImageTarget => target.f
 export function encodeImage(image: RenderedImage, target: ImageTarget, display: DisplayOptions): Uint8Array {
   if (target.format === 'png') return pngFile(image, target.bits === 16 ? 16 : 8, display);
   if (target.format === 'exr') return exrFile(image, target.bits === 32 ? 32 : 16);
-  return encodeHdr({ width: image.width, height: image.height, data: image.beauty });
+  return encodeHdr({ width: image.width, height: image.height, data: image.denoised?.data ?? image.beauty });
 }
 
 /**

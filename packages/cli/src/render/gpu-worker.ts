@@ -1,5 +1,5 @@
 import { GlanzError, type Camera, type Scene } from '@glanz/scene';
-import type { Backend, FilmState, OpenedGpu, Tracer } from '../backend';
+import type { DenoiseQuality, Backend, FilmState, ImageDenoiser, OpenedGpu, Tracer } from '../backend';
 import { CliError } from '../errors';
 import type { CliIo } from '../io';
 import type { RenderCommandOptions } from '../options';
@@ -43,6 +43,7 @@ export class GpuWorker {
   readonly #context: WorkerContext;
   readonly #gpu: RecoverableGpu;
   #tracer: Tracer | undefined;
+  #denoiser: { readonly quality: DenoiseQuality; readonly made: ImageDenoiser } | undefined;
   #key = '';
   #warnedScene: Scene | undefined;
 
@@ -115,6 +116,8 @@ export class GpuWorker {
     signal.throwIfAborted();
     const { adapterName, software } = this.#gpu.opened as OpenedGpu;
     const tracer = await timed('prepareMs', () => this.#prepared(options, scene, camera, variant));
+    // Before the samples: what is missing shows at once.
+    const denoiser = await timed('prepareMs', () => this.#denoiserOf(options));
     await this.#restore(tracer, making);
     await timed('renderMs', () => this.#sample(tracer, making));
     const { samples } = tracer;
@@ -124,8 +127,14 @@ export class GpuWorker {
         progress.line(`${file.path}: ${samples} samples; the same command continues from there`);
     }
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
+    const { denoise: quality } = options;
+    if (quality) progress.stage('denoise');
+    // After Ctrl-C too: what there is is what was asked for.
+    const denoised = await timed('denoiseMs', async () =>
+      denoiser && quality ? { data: await denoiser.denoise(tracer, new AbortController().signal), quality } : undefined,
+    );
     progress.stage('write');
-    const image = await timed('readMs', () => readImage(tracer, options, samples));
+    const image = await timed('readMs', () => readImage(tracer, options, samples, denoised));
     const film = shot.outputs.some(({ format }) => format === 'film')
       ? await timed('readMs', () => tracer.saveFilm())
       : undefined;
@@ -150,7 +159,7 @@ export class GpuWorker {
     const gpuLosses = this.#gpu.losses - making.lossesBefore;
     const names = files.map(({ path }) => path).join(', ');
     progress.line(
-      `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && settings.noise === undefined ? ` of ${settings.samples}` : ''} ${settings.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${duration(timings.totalMs)} in all`,
+      `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && settings.noise === undefined ? ` of ${settings.samples}` : ''} ${settings.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${quality ? `denoised (${quality}), ` : ''}${duration(timings.totalMs)} in all`,
     );
     if (statistics.badSamples > 0)
       progress.warning(
@@ -163,6 +172,7 @@ export class GpuWorker {
       resumedSamples: resumed,
       gpuLosses,
       ...(noise === undefined ? {} : { noise }),
+      ...(quality === undefined ? {} : { denoised: quality }),
       samplesPerSecond,
       camera: camera.name || camera.type,
       environment,
@@ -301,7 +311,7 @@ export class GpuWorker {
     const { device } = this.#gpu.opened as OpenedGpu;
     const { width, height } = options;
     const { samples: _samples, noise: _noise, ...settings } = options.settings;
-    const aovs = imageAovs(options.outputs);
+    const aovs = imageAovs(options);
     const key = JSON.stringify([sceneKey(options), width, height, settings, aovs]);
     if (this.#tracer && key === this.#key) {
       await this.#tracer.setVariant(variant);
@@ -325,10 +335,23 @@ export class GpuWorker {
     return this.#tracer;
   }
 
+  /** The denoiser that the image asks for, kept for the next one. */
+  async #denoiserOf({ denoise }: RenderCommandOptions): Promise<ImageDenoiser | undefined> {
+    if (denoise === undefined || this.#denoiser?.quality === denoise) return denoise && this.#denoiser?.made;
+    this.#denoiser?.made.destroy();
+    this.#denoiser = undefined;
+    const { backend, signal } = this.#context;
+    const made = await backend.createDenoiser((this.#gpu.opened as OpenedGpu).device, denoise, signal);
+    this.#denoiser = { quality: denoise, made };
+    return made;
+  }
+
   /** The next image gets a tracer of its own. */
   #drop(): void {
     this.#tracer?.destroy();
     this.#tracer = undefined;
+    this.#denoiser?.made.destroy();
+    this.#denoiser = undefined;
   }
 
   /** Gives the GPU back. */

@@ -3,11 +3,15 @@ import type { RenderCommandOptions } from '../options';
 import type { RenderedImage, ImageLayers } from '../output/image';
 import { version } from '../version';
 
-/** The first-hit AOVs that the outputs show, for the film to record with the image. */
-export const imageAovs = (outputs: RenderCommandOptions['outputs']): PathTracerOptions['aovs'] & {} =>
-  outputs.some(({ format }) => format === 'exr')
-    ? ['albedo', 'normal', 'position', 'depth', 'objectId', 'materialId']
-    : [];
+/** The first-hit AOVs that the outputs show or the denoiser is guided by, for the film to record with the image. */
+export function imageAovs({
+  outputs,
+  denoise,
+}: Pick<RenderCommandOptions, 'outputs' | 'denoise'>): PathTracerOptions['aovs'] & {} {
+  if (outputs.some(({ format }) => format === 'exr'))
+    return ['albedo', 'normal', 'position', 'depth', 'objectId', 'materialId'];
+  return denoise ? ['albedo', 'normal'] : [];
+}
 
 async function lightLayers(tracer: Tracer): Promise<ImageLayers['lights']> {
   const groups = tracer.lightGroups;
@@ -20,10 +24,11 @@ export async function readImage(
   tracer: Tracer,
   options: RenderCommandOptions,
   samples: number,
+  denoised?: RenderedImage['denoised'],
 ): Promise<RenderedImage> {
   const { width, height, outputs } = options;
   const beauty = await tracer.read('beauty');
-  const base = { width, height, beauty, samples, software: `Glanz ${version()}` };
+  const base = { width, height, beauty, samples, software: `Glanz ${version()}`, ...(denoised ? { denoised } : {}) };
   if (!outputs.some(({ format }) => format === 'exr')) return base;
   return {
     ...base,

@@ -15,6 +15,8 @@ export interface RenderTimings {
   prepareMs: number;
   renderMs: number;
   readMs: number;
+  /** 0 without `--denoise`. */
+  denoiseMs: number;
   writeMs: number;
   totalMs: number;
 }
@@ -29,6 +31,8 @@ export interface RenderedShot {
   readonly gpuLosses: number;
   /** Relative error of the image when it was last looked at; only with `--noise`. */
   readonly noise?: number;
+  /** How the image was denoised; absent: not at all. */
+  readonly denoised?: string;
   readonly samplesPerSecond: number;
   readonly camera: string;
   readonly environment: string;
@@ -55,6 +59,8 @@ export interface RenderResult {
   readonly gpuLosses: number;
   /** Relative error of the image when it was last looked at; only with `--noise`. */
   readonly noise?: number;
+  /** How the image was denoised; absent: not at all. */
+  readonly denoised?: string;
   readonly samplesPerSecond: number;
   /** The signal that ended it early, if one did. */
   readonly interrupted: Interrupt | null;
@@ -118,6 +124,7 @@ export const resultOf = (shot: Shot, made: RenderedShot, interrupted: Interrupt 
     resumedSamples,
     gpuLosses,
     noise,
+    denoised,
     samplesPerSecond,
     camera,
     environment,
@@ -138,6 +145,7 @@ export const resultOf = (shot: Shot, made: RenderedShot, interrupted: Interrupt 
     resumedSamples,
     gpuLosses,
     ...(noise === undefined ? {} : { noise }),
+    ...(denoised === undefined ? {} : { denoised }),
     samplesPerSecond,
     interrupted,
     depth: options.settings.maxDepth,

@@ -52,6 +52,7 @@ export async function beginShot(
     prepareMs: 0,
     renderMs: 0,
     readMs: 0,
+    denoiseMs: 0,
     writeMs: 0,
     totalMs: 0,
   };
