@@ -11,6 +11,7 @@ export type {
   FilmAov,
   FilmLayer,
   HierarchyBuilder,
+  HistoryFrame,
   LightGroup,
   LightGroupMode,
   MemoryReport,

@@ -179,9 +179,25 @@ export type BackFaceCulling = 'off' | 'camera' | 'all';
  *
  * Of the first surface of the sample nearest to the pixel's centre:
  * - `objectId`, `materialId`: u32: index in `Scene.instances` and in `Scene.materials`; 0xffffffff for none.
+ * - `motion`: XY: pixels, to the right and down, from where the surface is in the image to where it was in the frame
+ *   before, see {@link HistoryFrame}; 0 where there is no surface or no such frame. Through the middle of the lens.
  */
 export type AovName =
-  'albedo' | 'normal' | 'virtualDepth' | 'coverage' | 'depth' | 'position' | 'objectId' | 'materialId';
+  'albedo' | 'normal' | 'virtualDepth' | 'coverage' | 'depth' | 'position' | 'objectId' | 'materialId' | 'motion';
+
+/**
+ * The frame that a film showed before it began again, where the same surfaces can be found in it: after another camera
+ * of the same type, transforms of instances, another render scale, or `reset()`. Edits that change how surfaces look, or
+ * which there are, leave none; so do `resize()` and `restoreFilm()`.
+ */
+export interface HistoryFrame {
+  readonly camera: Camera;
+  /** Pixels that it had. */
+  readonly width: number;
+  readonly height: number;
+  /** Samples per pixel that it had, at least 1. */
+  readonly samples: number;
+}
 
 /** Where an AOV lies on the GPU, see {@link PathTracer.aov}. */
 export interface FilmAov {
@@ -192,7 +208,7 @@ export interface FilmAov {
   readonly buffer: GPUBuffer;
   /** What the numbers are: f32, or u32 for ids. */
   readonly format: 'float32' | 'uint32';
-  /** 32-bit numbers from one pixel to the next: 4, so the buffer is an `array<vec4f>` or `array<vec4u>`. */
+  /** 32-bit numbers from one pixel to the next: 4 of an `array<vec4f>` or `array<vec4u>`; 2 of `motion`. */
   readonly stride: number;
   /** The first of the AOV's own numbers in a pixel, counted from 0. The others may belong to other AOVs. */
   readonly offset: number;

@@ -1,6 +1,7 @@
 import type { Camera, Scene } from '@glanz/scene';
 import { EditSession } from './session/edit-session';
 import { deviceLost, RenderError, type DeviceError } from './errors';
+import type { EditEffect, Move } from './film/edit-effect';
 import { FilmSession } from './session/film-session';
 import type { FilmState } from './film/film-state';
 import { filmFingerprint } from './film/fingerprint';
@@ -16,6 +17,7 @@ import type {
   AovName,
   FilmAov,
   FilmLayer,
+  HistoryFrame,
   LightGroup,
   PathTracerOptions,
   PickResult,
@@ -78,6 +80,7 @@ export class PathTracer extends TracerEdits {
         integrator,
         groupNames: () => gpuScene.groups.names,
         packFrame: (film) => packFrame(this.#shownCamera, film, gpuScene, this.#editor.geometry, this.#options),
+        camera: () => this.#shownCamera,
         fingerprint: () => filmFingerprint(this.scene, this.#shownCamera, this.#options),
         check: () => this.#check(),
         ready: () => this.#edits.verifying,
@@ -92,7 +95,7 @@ export class PathTracer extends TracerEdits {
       integrator,
       film: this.#session,
       features: () => kernelFeatures(gpuScene.features(), this.#camera, this.#options),
-      restart: () => this.#restart(),
+      restart: (effect, moves) => this.#restart(effect, undefined, moves),
     });
     this.#ignoreLoss = onDeviceLost(device, (info) => (this.#failure ??= deviceLost(info)));
   }
@@ -143,6 +146,11 @@ export class PathTracer extends TracerEdits {
   /** Mean radiance and coverage: vec4f per pixel, linear, row-major, top row first. Replaced by `resize()`. */
   get beautyBuffer(): GPUBuffer {
     return this.#session.film.beauty;
+  }
+
+  /** The frame that the film showed before it began again, if the same surfaces can be found in it. */
+  get history(): HistoryFrame | undefined {
+    return this.#session.history;
   }
 
   /** The first-hit AOVs that are requested, see `PathTracerOptions.aovs`. */
@@ -241,6 +249,7 @@ export class PathTracer extends TracerEdits {
    * - `position`: Float32Array, stride 4: position and coverage.
    * - `coverage`, `depth`, `virtualDepth`: Float32Array, stride 1.
    * - `objectId`, `materialId`: Uint32Array, stride 1.
+   * - `motion`: Float32Array, stride 2.
    *
    * The layers but the first two are first-hit AOVs, see {@link AovName}. One that is not requested is requested here,
    * as {@link setAovs} does, and stays so: request what will be read with `PathTracerOptions.aovs`, and kernels are
@@ -355,7 +364,7 @@ export class PathTracer extends TracerEdits {
   reset({ firstSample }: { readonly firstSample?: number | undefined } = {}): void {
     this.#check();
     if (firstSample !== undefined) checkFirstSample(firstSample);
-    this.#restart(firstSample);
+    this.#restart('reprojects', firstSample);
   }
 
   /**
@@ -372,6 +381,7 @@ export class PathTracer extends TracerEdits {
       cameraUniforms(chosen, this.width, this.height);
       const before = this.#camera;
       return {
+        effect: 'reprojects',
         isStale: () => false,
         apply: () => {
           this.#camera = chosen;
@@ -390,14 +400,14 @@ export class PathTracer extends TracerEdits {
     this.#check();
     this.#options = resolveOptions({ ...this.#options, maxDepth });
     this.#integrator.limits = { ...this.#integrator.limits, maxDepth };
-    this.reset();
+    this.#restart('invalidates');
   }
 
   /** Shows the environment behind the scene, or leaves the background empty. Restarts the film. */
   setBackground(background: NonNullable<PathTracerOptions['background']>): void {
     this.#check();
     this.#options = resolveOptions({ ...this.#options, background });
-    this.reset();
+    this.#restart('invalidates');
   }
 
   /**
@@ -431,7 +441,7 @@ export class PathTracer extends TracerEdits {
     this.#check();
     checkRenderScale(scale);
     this.#session.renderScale = scale;
-    this.reset();
+    this.#restart('reprojects');
   }
 
   /** What lies under a pixel (whole or fractional coordinates from the upper left corner), found on the CPU. */
@@ -466,11 +476,11 @@ export class PathTracer extends TracerEdits {
     });
   }
 
-  #restart(firstSample?: number): void {
+  #restart(effect: EditEffect, firstSample?: number, moves?: readonly Move[]): void {
     const { flags } = this.#integrator.kernels.features;
     if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value))
       this.#shownCamera = this.#camera;
-    this.#session.restart(firstSample);
+    this.#session.restart(effect, firstSample, moves);
   }
 
   #check(): void {

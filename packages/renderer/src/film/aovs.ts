@@ -4,7 +4,7 @@ import type { AovName } from '../options';
 export const AOV_SAMPLES = 64;
 
 /** Buffers of the film that hold AOVs, each with its bytes per pixel. */
-export const AOV_BUFFERS = { aov_albedo: 16, aov_normal: 16, aov_position: 16, aov_ids: 16 } as const;
+export const AOV_BUFFERS = { aov_albedo: 16, aov_normal: 16, aov_position: 16, aov_ids: 16, aov_motion: 8 } as const;
 
 export type AovBuffer = keyof typeof AOV_BUFFERS;
 
@@ -34,6 +34,7 @@ export const AOV_PLACES: Readonly<Record<AovName, AovPlace>> = {
   virtualDepth: place('aov_position', 3, 1),
   objectId: place('aov_ids', 0, 1, 'uint32'),
   materialId: place('aov_ids', 1, 1, 'uint32'),
+  motion: { buffer: 'aov_motion', format: 'float32', stride: 2, offset: 0, channels: 2 },
 };
 
 /** The kernels' flags for AOVs that are requested. Albedo and coverage are always with the others. */
@@ -43,7 +44,9 @@ export function aovFlags(aovs: readonly AovName[]): Readonly<Record<string, bool
     AOVS: aovs.length > 0,
     AOV_NORMAL: needs('aov_normal'),
     AOV_POSITION: needs('aov_position'),
-    AOV_IDS: needs('aov_ids'),
+    // Which sample is nearest is kept with the ids.
+    AOV_IDS: needs('aov_ids') || needs('aov_motion'),
+    AOV_MOTION: needs('aov_motion'),
   };
 }
 
@@ -53,4 +56,5 @@ export const aovBuffers = (flags: Readonly<Record<string, boolean>>): AovBuffer[
   ...(flags.AOV_NORMAL ? (['aov_normal'] as const) : []),
   ...(flags.AOV_POSITION ? (['aov_position'] as const) : []),
   ...(flags.AOV_IDS ? (['aov_ids'] as const) : []),
+  ...(flags.AOV_MOTION ? (['aov_motion'] as const) : []),
 ];

@@ -13,6 +13,7 @@ export function unpackAov(
     const single = new (format === 'uint32' ? Uint32Array : Float32Array)(source.length / stride);
     return single.map((_, i) => source[stride * i + offset] as number);
   }
+  if (channels === stride) return source;
   // With the albedo lies the coverage, which positions have beside them too.
   const last = name === 'normal' ? undefined : new Float32Array(copies.at(-1) as ArrayBuffer);
   return Float32Array.from(source, (value, i) => (i % 4 === 3 ? (last?.[i] ?? 0) : value));

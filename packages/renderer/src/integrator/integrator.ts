@@ -1,4 +1,5 @@
 import type { Film } from '../film/film';
+import type { FrameHistory } from '../film/frame-history';
 import type { GroupWeights } from '../film/layers';
 import {
   GPU_BUFFER_COPY_DST,
@@ -13,7 +14,7 @@ import type { ResourceProvider } from '../storage/scene-resources';
 import type { KernelSet } from './kernel-cache';
 import { CONNECT_CROSSINGS, WALK_STEPS } from './limits';
 import { BLOCK } from '../storage/blocks';
-import { aovBatchStruct, batchStruct, frameStruct, shadowRecords } from '../storage/layout';
+import { aovBatchStruct, batchStruct, frameStruct, historyStruct, shadowRecords } from '../storage/layout';
 import { pathLayout } from '../path/path-layout';
 import { createBindGroup, MAX_LIGHT_GROUPS, type BindGroupName } from '../storage/resources';
 import type { Kernel, KernelFeatures, KernelName } from './pipelines';
@@ -26,7 +27,17 @@ const QUEUE_WORDS = 8;
 /** One dispatch covers at most 65,535 workgroups of 64 threads. */
 export const MAX_THREADS = 65535 * 64;
 
-type OwnBuffer = 'frame' | 'batch' | 'aov_batch' | 'light_groups' | 'paths' | 'queues' | 'shadows' | 'dispatch';
+type OwnBuffer =
+  | 'frame'
+  | 'batch'
+  | 'aov_batch'
+  | 'history'
+  | 'history_moves'
+  | 'light_groups'
+  | 'paths'
+  | 'queues'
+  | 'shadows'
+  | 'dispatch';
 
 /** How many paths may be kept on the GPU at once. Large GPUs are known by the size of their buffers. */
 export function pathLimit(device: GPUDevice, wanted: number | undefined, features: KernelFeatures): number {
@@ -119,6 +130,8 @@ export class Integrator {
       frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       aov_batch: memory.buffer('AOV batch', aovBatchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
+      history: memory.buffer('history', historyStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
+      history_moves: memory.buffer('history moves', 64, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST),
       light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
       paths: memory.buffer('paths', pathLayout(features).records.bytes(capacity), GPU_BUFFER_STORAGE),
       queues: memory.buffer(
@@ -232,6 +245,16 @@ export class Integrator {
 
   writeFrame(frame: ArrayBuffer): void {
     this.#memory.write(this.#buffers.frame, frame);
+  }
+
+  /** The frame before, for motion: see `FrameHistory.pack`. */
+  writeHistory({ uniforms, moves }: ReturnType<FrameHistory['pack']>): void {
+    if (moves.byteLength > this.#buffers.history_moves.size)
+      this.#replace({
+        history_moves: this.#memory.buffer('history moves', moves.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST),
+      });
+    this.#memory.write(this.#buffers.history, uniforms);
+    this.#memory.write(this.#buffers.history_moves, moves);
   }
 
   /** Weights of the light groups: as they are now, and as they were when the film was begun. */

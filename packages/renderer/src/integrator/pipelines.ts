@@ -227,7 +227,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           'paths',
           'film_pixels',
           ...recording,
-          ...aovBuffers(flags).filter((buffer) => buffer !== 'aov_ids'),
+          ...aovBuffers(flags).filter((buffer) => buffer !== 'aov_ids' && buffer !== 'aov_motion'),
         ],
         textures: false,
       };
@@ -235,7 +235,16 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       return {
         root: aovIds,
         host: [path],
-        resources: ['frame', 'batch', 'paths', 'film_pixels', 'instances', ...recording, 'aov_ids'],
+        resources: [
+          'frame',
+          'batch',
+          'paths',
+          'film_pixels',
+          'instances',
+          ...recording,
+          'aov_ids',
+          ...(flags.AOV_MOTION ? (['aov_motion', 'history', 'history_moves'] as const) : []),
+        ],
         textures: false,
       };
     case 'relight':

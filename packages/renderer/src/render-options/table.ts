@@ -115,7 +115,7 @@ export const RENDER_OPTIONS = {
   lightGroups: { type: 'enum', values: ['off', 'named', 'each'], default: 'named', effect: 'film' },
   aovs: {
     type: 'names',
-    values: ['albedo', 'normal', 'virtualDepth', 'coverage', 'depth', 'position', 'objectId', 'materialId'],
+    values: ['albedo', 'normal', 'virtualDepth', 'coverage', 'depth', 'position', 'objectId', 'materialId', 'motion'],
     default: [],
     effect: 'layers',
   },

@@ -12,7 +12,7 @@ import {
   type Scene,
 } from '@glanz/scene';
 import { RenderError } from '../errors';
-import type { EditEffect } from '../film/edit-effect';
+import type { EditEffect, Move } from '../film/edit-effect';
 import type { GpuScene } from './gpu-scene';
 import { checkParameters } from '../materials/check-parameters';
 import { environmentSteps, hasSameTexels, type EnvironmentData } from '../environment/environment';
@@ -51,6 +51,8 @@ export interface SceneChange {
   readonly undo: () => void;
   /** What it does to the film's samples; default `invalidates`. */
   readonly effect?: EditEffect;
+  /** The instances that it moves. */
+  readonly moves?: readonly Move[];
   /** Writes shapes to the GPU again that it has overwritten, once everything else has been taken back. */
   readonly rewrite?: () => void;
 }
@@ -244,11 +246,16 @@ export class SceneEditor {
   setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): SceneChange | Promise<SceneChange> {
     if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite))
       throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
-    return this.#change(
-      this.#instances(nameOrIndex),
-      (instance) => ({ ...instance, transform: Array.from(transform) }),
-      true,
-    );
+    const which = this.#instances(nameOrIndex);
+    const after = Array.from(transform);
+    const before = which.map((index) => (this.scene.instances[index] as Instance).transform);
+    const withMoves = (change: SceneChange): SceneChange => ({
+      ...change,
+      effect: 'reprojects',
+      moves: which.map((index, i) => ({ index, before: before[i] as ArrayLike<number>, after })),
+    });
+    const placed = this.#change(which, (instance) => ({ ...instance, transform: after }), true);
+    return placed instanceof Promise ? placed.then(withMoves) : withMoves(placed);
   }
 
   setMaterialOf(nameOrIndex: string | number, material: string | number): SceneChange | Promise<SceneChange> {

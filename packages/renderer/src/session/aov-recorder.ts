@@ -1,6 +1,6 @@
 import { inErrorScopes } from '../device/error-scopes';
 import { RenderError } from '../errors';
-import { AOV_PLACES, type AovBuffer } from '../film/aovs';
+import { AOV_BUFFERS, AOV_PLACES, type AovBuffer } from '../film/aovs';
 import type { Film } from '../film/film';
 import type { AovBatch, Integrator } from '../integrator/integrator';
 import type { AovName, FilmAov } from '../options';
@@ -109,7 +109,7 @@ export class AovRecorder {
         [...names].map((buffer) => {
           const found = film().buffer(buffer);
           if (!found) throw this.#missing(name);
-          return readBuffer(device, found, film().pixels * 16);
+          return readBuffer(device, found, film().pixels * AOV_BUFFERS[buffer]);
         }),
       );
       if (started === generation()) return unpackAov(name, copies);

@@ -1,5 +1,5 @@
 import { aovBuffers } from '../film/aovs';
-import type { EditEffect } from '../film/edit-effect';
+import type { EditEffect, Move } from '../film/edit-effect';
 import { Film } from '../film/film';
 import type { FilmSession } from './film-session';
 import type { GpuMemory } from '../storage/buffers';
@@ -21,7 +21,7 @@ export interface EditHost {
   /** What the scene, the camera and the options ask of the kernels. */
   readonly features: () => KernelFeatures;
   /** Starts the film again. */
-  readonly restart: () => void;
+  readonly restart: (effect: EditEffect, moves?: readonly Move[]) => void;
 }
 
 /** An edit that has been made, and can be taken back until it is settled. */
@@ -95,7 +95,7 @@ export class EditSession {
     }
     if (edit.result) integrator.rebind('scene');
     const { effect = 'invalidates' } = change;
-    if (effect !== 'keeps') restart();
+    if (effect !== 'keeps') restart(effect, change.moves);
     const made: Made = { effect, settle: edit.settle, takeBack };
     this.#made.push(made);
     const kernels = this.#bringKernels();
@@ -108,7 +108,7 @@ export class EditSession {
         takeBack();
         this.#bringKernels().catch(() => {});
       } else gpuScene.rewrite();
-      if (effect !== 'keeps') restart();
+      if (effect !== 'keeps') restart('invalidates');
       throw error;
     });
     await kernels;
@@ -139,7 +139,7 @@ export class EditSession {
         continue;
       }
       film.replace(next);
-      restart();
+      restart('invalidates');
     }
   }
 
@@ -165,8 +165,8 @@ export class EditSession {
       if (request === this.#requests && (await this.#use(kernels, () => request === this.#requests))) {
         const keeps = this.#keepsFilm;
         this.#settle();
-        if (keeps) this.#host.film.aovs.restart();
-        else restart();
+        if (keeps) this.#host.film.restartAovs();
+        else restart('invalidates');
         return;
       }
     } catch (error) {
@@ -174,7 +174,7 @@ export class EditSession {
       if (request === this.#requests) {
         const keeps = this.#keepsFilm;
         for (const { takeBack } of this.#made.splice(0).reverse()) takeBack();
-        if (!keeps) restart();
+        if (!keeps) restart('invalidates');
         throw error;
       }
     }

@@ -1,3 +1,4 @@
+import type { Camera } from '@glanz/scene';
 import { TileGrid } from '../schedule/adaptive';
 import { RenderError } from '../errors';
 import type { GpuMemory } from '../storage/buffers';
@@ -8,12 +9,14 @@ import { forBands } from '../integrator/bands';
 import type { Integrator } from '../integrator/integrator';
 import { FILM_CHUNK, headEnd, headSamples } from '../schedule/sample-range';
 import { renderGoal } from '../option-checks';
-import type { FilmLayer, LightGroup, RenderOptions, RenderProgress } from '../options';
+import type { FilmLayer, HistoryFrame, LightGroup, RenderOptions, RenderProgress } from '../options';
 import type { Batch } from '../schedule/scheduler';
 import { Sampling, type SamplingState } from '../schedule/sampling';
 import { AovRecorder } from './aov-recorder';
+import type { EditEffect, Move } from '../film/edit-effect';
 import type { Film } from '../film/film';
 import { FILM_SUMS, type FilmState } from '../film/film-state';
+import { FrameHistory } from '../film/frame-history';
 import { GroupSettings } from '../film/group-settings';
 import type { GroupWeights } from '../film/layers';
 
@@ -27,6 +30,8 @@ export interface FilmHost {
   readonly groupNames: () => readonly string[];
   /** The frame uniforms for a film. */
   readonly packFrame: (film: Film) => ArrayBuffer;
+  /** The camera that the film is seen through. */
+  readonly camera: () => Camera;
   /** See `filmFingerprint`. */
   readonly fingerprint: () => string;
   /** Throws if the tracer was destroyed or its device lost. */
@@ -45,6 +50,7 @@ export class FilmSession {
   readonly #host: FilmHost;
   readonly aovs: AovRecorder;
   readonly groups: GroupSettings;
+  readonly #history = new FrameHistory();
   #film: Film;
   #sampling: Sampling | undefined;
   /** Counts restarts: what began before one must not go on after it. */
@@ -83,6 +89,17 @@ export class FilmSession {
     });
   }
 
+  /** See `PathTracer.history`. */
+  get history(): HistoryFrame | undefined {
+    return this.#history.previous;
+  }
+
+  /** Kernels that record other AOVs have come. */
+  restartAovs(): void {
+    this.aovs.restart();
+    this.#frameDirty = true;
+  }
+
   get film(): Film {
     return this.#film;
   }
@@ -99,10 +116,15 @@ export class FilmSession {
 
   /**
    * Starts the film again, for what the frame uniforms and the light groups are now.
+   *
+   * @param effect What has changed.
    * @param first Number of its first sample; default: the same as before.
+   * @param moves Instances that have moved.
    */
-  restart(first = this.#first): void {
+  restart(effect: EditEffect, first = this.#first, moves?: readonly Move[]): void {
     const { device, integrator } = this.#host;
+    const { width, height } = this.#film;
+    this.#history.restart(effect, this.samples, { camera: this.#host.camera(), width, height }, moves);
     this.#generation++;
     integrator.firstSample = this.#first = first;
     this.#headCopied = false;
@@ -174,7 +196,7 @@ export class FilmSession {
       );
     this.#rendering = true;
     try {
-      if (this.#broken) this.restart();
+      if (this.#broken) this.restart('invalidates');
       const generation = this.#generation;
       const sampling = (this.#sampling ??= this.#newSampling());
       yield* sampling.render({
@@ -275,7 +297,7 @@ export class FilmSession {
     const tiles = new TileGrid(width, height).count;
     const fault = filmStateFault(state, { width, height, planes, fingerprint: fingerprint() }, tiles, chunks);
     if (fault) throw new RenderError('renderer/film-state', `The saved film cannot be resumed here: ${fault}.`);
-    this.restart(first);
+    this.restart('invalidates', first);
     const { verified } = inErrorScopes(device, 'the saved film', () => {
       this.#sampling = this.#newSampling(this.#sampling?.paths, state.sampling);
       this.#firstWeights = state.weights.first;
@@ -372,7 +394,10 @@ export class FilmSession {
 
   #writeFrame(): void {
     if (!this.#frameDirty) return;
-    this.#host.integrator.writeFrame(this.#host.packFrame(this.#film));
+    const { integrator, packFrame, camera } = this.#host;
+    integrator.writeFrame(packFrame(this.#film));
+    if (integrator.kernels.features.flags.AOV_MOTION)
+      integrator.writeHistory(this.#history.pack(camera(), this.#film.width, this.#film.height));
     this.#frameDirty = false;
   }
 

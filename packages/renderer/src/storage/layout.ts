@@ -71,6 +71,18 @@ export const aovBatchStruct = struct('AovBatch', {
   only: 'u32',
 });
 
+/** The camera of the frame before, and how many instances have moved since. */
+export const historyStruct = struct('History', {
+  origin: 'vec3f',
+  moved: 'u32',
+  right: 'vec3f',
+  /** Whether there is a frame before; else the rest does not count. */
+  known: 'u32',
+  up: 'vec3f',
+  forward: 'vec3f',
+  half_extent: 'vec2f',
+});
+
 const SHADOW = {
   origin: 'vec3f',
   distance: 'f32',
@@ -228,6 +240,7 @@ export const BACKGROUND_TRANSPARENT = 2;
 export const Frame = frameStruct.module;
 export const Batch = batchStruct.module;
 export const AovBatch = aovBatchStruct.module;
+export const History = historyStruct.module;
 export const Instance = instanceStruct.module;
 export const Material = materialStruct.module;
 export const Light = lightStruct.module;

@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { GPU_STAGE_COMPUTE } from './buffers';
-import { AovBatch, Batch, BvhNode, Frame, Instance, Light, Material, shadowRecords } from './layout';
+import { AovBatch, Batch, BvhNode, Frame, History, Instance, Light, Material, shadowRecords } from './layout';
 import queues from './queues.wesl';
 
 /** Light groups that an image may have. */
@@ -24,12 +24,14 @@ const LAUNCH = {
   frame: { type: 'Frame', space: 'uniform', deps: [Frame] },
   batch: { type: 'Batch', space: 'uniform', deps: [Batch] },
   aov_batch: { type: 'AovBatch', space: 'uniform', deps: [AovBatch] },
+  history: { type: 'History', space: 'uniform', deps: [History] },
   light_groups: { type: `array<vec4f, ${2 * MAX_LIGHT_GROUPS}>`, space: 'uniform' },
   // Its layout depends on the scene: the kernels bring it with `pathLayout`.
   paths: { type: 'array<PathBlock>', space: 'read_write' },
   queues: { type: 'Queues', space: 'read_write', deps: [queues] },
   shadows: { type: 'array<ShadowBlock>', space: 'read_write', layout: shadowRecords },
   dispatch: { type: 'array<u32, 8>', space: 'read_write' },
+  history_moves: { type: 'array<vec4u>', space: 'read' },
 } as const satisfies Record<string, Resource>;
 
 /** Replaced by edits that need more memory, or another texture. Textures of its materials come after these. */
@@ -60,6 +62,7 @@ const FILM = {
   aov_normal: { type: 'array<vec4f>', space: 'read_write' },
   aov_position: { type: 'array<vec4f>', space: 'read_write' },
   aov_ids: { type: 'array<vec4u>', space: 'read_write' },
+  aov_motion: { type: 'array<vec2f>', space: 'read_write' },
 } as const satisfies Record<string, Resource>;
 
 /**

@@ -212,3 +212,57 @@ it('records the same in bands and in several samples at once', async () => {
   large.destroy();
   small.destroy();
 });
+
+/** Everything that brings resources to kernels: textures, opacity, a light tree, a map, a catcher, media, groups. */
+function rich(): Scene {
+  const scene = diffuse();
+  scene.images.push({ name: 'p', width: 2, height: 2, data: new Uint8Array(16).fill(128) });
+  scene.textures.push({ image: 0, color_space: 'srgb' });
+  Object.assign(scene.materials[0] as object, { textures: { geometry_opacity: { texture: 0, channels: 'r' } } });
+  scene.materials[1]!.parameters = {
+    transmission_weight: 1,
+    transmission_depth: 1,
+    transmission_scatter: [0.5, 0.5, 0.5],
+  };
+  for (let i = 0; i < 20; i++)
+    scene.lights.push({
+      type: 'point',
+      name: `p${i}`,
+      color: [1, 1, 1],
+      intensity: 1,
+      position: [0.1 * i, 0, 2],
+      light_group: `g${i % 2}`,
+    });
+  scene.environment = { type: 'latlong', width: 4, height: 2, data: new Float32Array(24).fill(1) };
+  scene.instances[2]!.catcher = true;
+  return scene;
+}
+
+it('records all of them within the limits that every browser has, eight storage buffers in a kernel among them', async () => {
+  const small = await testDevice({ defaultLimits: true, driver: 'swiftshader' });
+  const tracer = await PathTracer.create(small, rich(), {
+    ...options,
+    aovs: [...ALL, 'objectId', 'materialId', 'motion'],
+  });
+  for await (const _ of tracer.render({ samples: 2 }));
+  expect(tracer.aov('motion').samples).toBe(2);
+  tracer.destroy();
+});
+
+it('leaves the programs of tracers without AOVs alone', async () => {
+  // A device of its own: others have compiled these programs before.
+  const own = await testDevice({ features: [], driver: 'swiftshader' });
+  const programs: string[] = [];
+  const original = own.createShaderModule.bind(own);
+  own.createShaderModule = (descriptor) => {
+    programs.push(descriptor.code);
+    return original(descriptor);
+  };
+  const tracer = await PathTracer.create(own, diffuse(), options);
+  for await (const _ of tracer.render({ samples: 1 }));
+  expect(programs.length).toBeGreaterThan(5);
+  for (const code of programs) expect(code).not.toMatch(/aov|history/i);
+  await tracer.setAovs(['motion']);
+  expect(programs.some((code) => /aov_/.test(code) && /history_moves/.test(code))).toBe(true);
+  tracer.destroy();
+});

@@ -38,6 +38,7 @@ const LAYER_CHANNELS = {
   depth: 1,
   objectId: 1,
   coverage: 1,
+  motion: 2,
   virtualDepth: 1,
   materialId: 1,
 } as const;

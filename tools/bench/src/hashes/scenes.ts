@@ -375,6 +375,27 @@ const BIASED: readonly HashCase[] = [
   },
 ];
 
+const AOVS = [
+  'albedo',
+  'normal',
+  'virtualDepth',
+  'coverage',
+  'depth',
+  'position',
+  'objectId',
+  'materialId',
+  'motion',
+] as const;
+
+const LAYERS: readonly HashCase[] = [
+  {
+    name: 'first-hit AOVs',
+    scene: () => stage({ transmission_weight: 1, specular_roughness: 0 }),
+    options: { aovs: AOVS },
+    layers: AOVS,
+  },
+];
+
 const MODELS: readonly HashCase[] = [
   { name: 'model Cornell box', scene: () => createCornellBox() },
   {
@@ -389,4 +410,12 @@ const MODELS: readonly HashCase[] = [
 ];
 
 /** Every flag of the kernels is on in at least one of these, and off in another where it can be; `hashes` checks it. */
-export const HASH_CASES: readonly HashCase[] = [...MATERIALS, ...SURFACES, ...LIGHTS, ...VIEWS, ...BIASED, ...MODELS];
+export const HASH_CASES: readonly HashCase[] = [
+  ...MATERIALS,
+  ...SURFACES,
+  ...LIGHTS,
+  ...VIEWS,
+  ...BIASED,
+  ...LAYERS,
+  ...MODELS,
+];
