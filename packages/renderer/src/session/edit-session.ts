@@ -221,7 +221,10 @@ export class EditSession {
       const { scale } = film.film;
       film.replace(result.next);
       if (scale !== 1) film.renderScale = scale;
-    } else before.keepAovs(aovs);
+    } else {
+      before.keepAovs(aovs);
+      integrator.rebind('film');
+    }
     return true;
   }
 

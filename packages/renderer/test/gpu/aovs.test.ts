@@ -188,6 +188,19 @@ it('reads layers of films that were made without: they are requested, and record
   recorded.destroy();
 });
 
+it('goes on where AOVs are given up and requested again', async () => {
+  const tracer = await render(diffuse(), 4, { aovs: ['objectId'] });
+  const ids = await tracer.read('objectId');
+  const bytes = tracer.statistics.gpuBytes;
+  await tracer.setAovs([]);
+  expect(tracer.statistics.gpuBytes).toBeLessThan(bytes);
+  expect(() => tracer.aov('objectId')).toThrow(expect.objectContaining({ code: 'renderer/aov' }));
+  await tracer.setAovs(['objectId']);
+  expect(await tracer.read('objectId')).toEqual(ids);
+  expect(tracer.samples).toBe(4);
+  tracer.destroy();
+});
+
 it('resumes with a saved film', async () => {
   const first = await render(diffuse(), 40, { aovs: ['albedo'] });
   const state = await first.saveFilm();
