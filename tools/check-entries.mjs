@@ -1,5 +1,5 @@
 // node tools/check-entries.mjs — importing any published entry in bare Node does nothing: no output, no globals, no
-// handle that keeps the process alive, no failure for want of a GPU or an optional dependency.
+// handle that keeps the process alive, no failure without a GPU or an optional dependency.
 import { rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { capture } from './pipeline/process.mjs';

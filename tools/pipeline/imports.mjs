@@ -295,7 +295,7 @@ export function checkPackage(p, { arrows, all, rootManifest, base }) {
     if (isSource) graph.set(file, edges);
   }
 
-  // Types count too: whoever reads one of two files that import each other must read both.
+  // Types count too: to read one of two files that import each other is to read both.
   for (const file of published ? sourceFiles(join(p.dir, 'src'), /\.wesl$/) : [])
     graph.set(file, weslImports(join(p.dir, 'src'), file));
   const cycle = findCycle([...graph.keys()], (file) => (graph.get(file) ?? []).map((edge) => edge.target));

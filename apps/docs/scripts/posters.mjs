@@ -1,4 +1,4 @@
-// node apps/docs/scripts/posters.mjs [samples] [name …] — path-traces what live images show until somebody starts
+// node apps/docs/scripts/posters.mjs [samples] [name …] — path-traces what live images show until a visitor starts
 // them, into public/posters/.
 import { mkdirSync, mkdtempSync, rmSync, statSync } from 'node:fs';
 import { fileURLToPath, pathToFileURL } from 'node:url';

@@ -25,7 +25,7 @@ const GROUPS = [
   'geometry',
 ] as const;
 
-/** What each live image of the site shows before anybody touches it, by the name of its file. */
+/** What each live image of the site shows before it is started, by the name of its file. */
 const SHOTS: Readonly<Record<string, Shot>> = {
   spheres: { scene: 'spheres' },
   'push-button': { scene: 'push-button', material: 'lens green', parameters: LENS_COLOURS[0]!.parameters },

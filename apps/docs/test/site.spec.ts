@@ -19,7 +19,7 @@ test.beforeAll(async () => {
 
 test.afterAll(() => close());
 
-/** Collects what a page complains about, and requests that leave the site. */
+/** Collects the errors and warnings of a page, and requests that leave the site. */
 function watchPage(page: Page): string[] {
   const complaints: string[] = [];
   page.on('console', (message) => {
@@ -42,7 +42,7 @@ function watchPage(page: Page): string[] {
   return complaints;
 }
 
-test('all pages load without a complaint, and every internal link and anchor leads somewhere', async ({ page }) => {
+test('all pages load without an error, and every internal link and anchor leads somewhere', async ({ page }) => {
   const complaints = watchPage(page);
   const pages = sitePages();
   expect(pages.length).toBeGreaterThan(25);
@@ -104,7 +104,7 @@ const isFull = process.env['GLANZ_FULL'] !== undefined;
 
 /**
  * In which widths and themes a page is looked at: one of each kind in all three widths and both themes, with all six
- * pairs on any two kinds that follow each other; others that are listed below in one pair, by turns, and so each
+ * pairs on any two kinds that follow each other; others that are listed below in one pair, alternately, and so each
  * fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
  */
 function looksOf(path: string, index: number): readonly (readonly [number, 'light' | 'dark'])[] {

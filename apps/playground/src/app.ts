@@ -111,7 +111,7 @@ export class App {
       () => app.#opened?.name,
       () => app.#environments.fileName,
     );
-    // Somebody put another link into the address.
+    // Another link was put into the address.
     window.addEventListener('hashchange', () => location.reload());
   }
 
@@ -199,7 +199,7 @@ export class App {
         try {
           await this.#environments.load(environment);
         } catch (error) {
-          // A model that came with it is shown all the same.
+          // A model that came with it is still shown.
           if (!model) throw error;
           note = environmentNote(error);
         }

@@ -16,5 +16,5 @@ export function describeError(error: unknown): { readonly message: string; reado
   return { message: line, code: typeof code === 'string' ? code : 'unexpected' };
 }
 
-/** Whether an operation ended because somebody wanted it to. */
+/** Whether an operation was aborted. */
 export const isAbort = (error: unknown): boolean => error instanceof DOMException && error.name === 'AbortError';

@@ -5,7 +5,7 @@ export interface Chosen {
   readonly instance?: number | undefined;
 }
 
-/** The chosen part and material, and who wants to know. */
+/** The chosen part and material, and their listeners. */
 export class Selection {
   #chosen: Chosen = { material: 0 };
   readonly #listeners = new Set<(chosen: Chosen) => void>();

@@ -206,7 +206,7 @@ test('the address holds the view: a reload brings back camera, material, light a
   await tab(page, 'Scene');
   await expect(page.getByRole('button', { name: 'Show all (1 hidden)' })).toBeVisible();
 
-  // A link that somebody has spoiled is no trouble.
+  // A damaged link is ignored.
   await page.goto('about:blank');
   await open(page, 'model=cornell-box&scale=0.25&samples=2&max-depth=2', '#v1.spoiled');
   await finished(page);

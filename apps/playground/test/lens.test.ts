@@ -23,7 +23,7 @@ test('focal lengths are those printed on full-frame lenses', () => {
   expect(focalLength(fieldOfView(35))).toBeCloseTo(35, 9);
 });
 
-test('without a word about it the camera stays as it is', () => {
+test('without an option for it the camera stays as it is', () => {
   expect(withLens(camera, lens, 1.5)).toEqual(camera);
 });
 

@@ -43,7 +43,7 @@ test('images are not in the link, nor is what is as at the beginning', () => {
   ).toEqual(['samples', 'environment']);
 });
 
-test('a link names the files that it cannot hold, to who makes it and who opens it', async () => {
+test('a link names the files that it cannot hold, when it is made and when it is opened', async () => {
   const image = { name: 'p', width: 1, height: 1, data: new Uint8Array(4) };
   const slot = { image, color_space: 'srgb', binding: { channels: 'rgb' } } as const;
   const whole = linkContent('push-button', edited, 'old.hdr');

@@ -178,7 +178,7 @@ test('the first script is small, and controls come after the first model', async
   };
   expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(176_000);
   expect(fetched(asked)).toBeLessThan(200_000);
-  // Presets, encoders and decoders wait until somebody wants them.
+  // Presets, encoders and decoders are loaded when they are needed.
   expect(
     asked.filter((url) =>
       /\/(presets|png|exr|materialx|draco|meshopt|render|render-dialog|render-image|save-image)(-[^/]*)?\.(js|wasm|css)$/.test(
@@ -444,7 +444,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
     expect(mean[1]).toBeLessThan(mean[0] - 60);
   }).toPass({ timeout: 30_000 });
 
-  // A link cannot hold the file: the page says so to who makes it, and to who opens it.
+  // A link cannot hold the file: the page says so when it is made and when it is opened.
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await page.getByRole('button', { name: 'Share' }).click();
   await expect(page.locator('#share-note')).toContainText('red room.hdr');

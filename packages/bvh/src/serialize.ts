@@ -64,7 +64,7 @@ export const serializeBlas = (blas: Blas): ArrayBuffer => serializeBlases([blas]
 
 /**
  * Restores hierarchies from a buffer of {@link serializeBlases}. Everything is validated, so that no query or traversal
- * of the result reads outside its arrays, whoever has written the buffer: lengths, the checksum, every reference and
+ * of the result reads outside its arrays, whatever the buffer holds: lengths, the checksum, every reference and
  * the depth; and with `meshes` also that every triangle index exists.
  *
  * @param data May come from a machine of another byte order. Its words need not be aligned.

@@ -50,7 +50,7 @@ export function fakeIndexedDb(
             answer.onerror?.();
           }
           open--;
-          // Those who wait for the answer have their turn first.
+          // Callers that wait for the answer run first.
           setTimeout(settle);
         });
         return answer;

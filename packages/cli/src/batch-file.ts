@@ -100,7 +100,7 @@ export interface BatchRequest {
 }
 
 /**
- * Makes sure that a batch file, which may come from somebody else, writes below a folder only.
+ * Makes sure that a batch file, which may be untrusted, writes below a folder only.
  *
  * @param paths With the names of variants and views in them.
  * @param root Default: the folder of the batch file.

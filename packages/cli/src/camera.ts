@@ -115,7 +115,7 @@ export function cameraFromJson(text: string, aspect = 1): Camera {
 }
 
 /**
- * The camera that `--camera` names: one of the scene's by name or number, JSON, or a .json file. Without a word: the
+ * The camera that `--camera` names: one of the scene's by name or number, JSON, or a .json file. By default: the
  * scene's first, or one that frames the scene.
  *
  * @throws {CliError} `cli/camera`, `cli/input`

@@ -109,7 +109,7 @@ const OPTIONS = {
 } satisfies ParseArgsConfig['options'];
 
 /**
- * Former names of options, with the present ones. They work until the next minor version; whoever uses one is warned.
+ * Former names of options, with the present ones. They work until the next minor version; using one is warned of.
  */
 export const FORMER_NAMES = { tonemap: 'tone-map', depth: 'max-depth' } as const satisfies Partial<
   Record<keyof typeof OPTIONS, keyof typeof OPTIONS>

@@ -67,7 +67,7 @@ it('knows parallel projection, panoramas and apertures', () => {
 
 describe('chooseCamera', () => {
   const scene = triangleScene();
-  it('by name, by number, by JSON, by file; the first without a word', async () => {
+  it('by name, by number, by JSON, by file; the first by default', async () => {
     const cwd = temporaryFolder({ 'view.json': '{"position":[1,2,3],"name":"view"}' });
     expect(await chooseCamera(scene, undefined, 1, cwd)).toBe(scene.cameras[0]);
     expect(await chooseCamera(scene, 'front', 1, cwd)).toBe(scene.cameras[0]);

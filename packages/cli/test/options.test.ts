@@ -169,7 +169,7 @@ it('help and version', () => {
   expect(parseCommand(['-V']).kind).toBe('version');
 });
 
-describe('complains in one line, saying what to do', () => {
+describe('reports errors in one line that says what to do', () => {
   it.each([
     [['render', 'm.glb', '--sample', '3'], 'Unknown option "--sample". Did you mean --samples?'],
     [['render', 'm.glb', '--tonmap=agx'], 'Did you mean --tone-map?'],

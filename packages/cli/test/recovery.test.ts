@@ -178,7 +178,7 @@ describe('a render whose GPU is lost', () => {
     const { code, err, out } = await run(['render', 'm.glb', ...SIZE, '--json'], cwd, fake, io);
     expect([code, opened.length, io.waits.filter((ms) => ms !== 100)]).toEqual([5, 1, [300, 1000, 3000, 10_000]]);
     expect(last(err)).toBe(
-      'glanz: The GPU "Fake only" was lost and gives no new device after 5 attempts (The GPU refused a device). Often it ran out of memory, its driver crashed or was updated, or the machine was asleep: close other programs that use it, try a smaller --size, update the driver, or choose another one with --gpu (see glanz --list-gpus; --gpu software uses the processor). With --checkpoint FILE, a later run continues from the last samples. [cli/gpu-lost]',
+      'glanz: The GPU "Fake only" was lost and gives no new device after 5 attempts (The GPU refused a device). Often it ran out of memory, its driver crashed or was updated, or the machine was suspended: close other programs that use it, try a smaller --size, update the driver, or choose another one with --gpu (see glanz --list-gpus; --gpu software uses the processor). With --checkpoint FILE, a later run continues from the last samples. [cli/gpu-lost]',
     );
     expect(JSON.parse(out)).toMatchObject({ ok: false, error: { code: 'cli/gpu-lost' } });
     expect(images(cwd)).toEqual([]);

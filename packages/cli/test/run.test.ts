@@ -247,7 +247,7 @@ describe('writing', () => {
     ]);
   });
 
-  it('the time of loading is that of the model, whoever it waits for', async () => {
+  it('the time of loading is that of the model, without what it waits for', async () => {
     const cwd = folder(),
       io = fakeIo(cwd);
     const fake = {
@@ -287,7 +287,7 @@ describe('writing', () => {
 });
 
 describe('environment', () => {
-  it('the studio without a word, the model’s own if it has any, none if asked', async () => {
+  it('the studio by default, the model’s own if it has any, none if asked', async () => {
     const own = { ...triangleScene(), environment: { type: 'constant' as const, radiance: [1, 2, 3] as const } };
     expect((await run(['render', 'm.glb', ...SIZE], folder())).created[0]?.scene.environment).toMatchObject({
       type: 'latlong',

@@ -517,7 +517,7 @@ test('what a property or an attribute cannot be is a typed error, and the image 
   await done(page);
   expect((await shot(page)).cells).toEqual(before.cells);
 
-  // The same from the start, and an image that nobody will ever see is not waited for.
+  // The same from the start, and an image that is never visible is not waited for.
   const code = await page.evaluate(async () => {
     document.querySelector('glanz-viewer')!.remove();
     const element = window.put({ samples: 'many', loading: 'eager' });

@@ -1,4 +1,4 @@
-// Files that nobody writes by accident: small, and made to cost much or to reach where they must not.
+// Malicious files: small, and made to take much time or memory or to read other files.
 import { validateScene } from '@glanz/scene';
 import { describe, expect, test } from 'vitest';
 import { FormatError, readObj, readStl, type ObjOptions } from '../src/index';

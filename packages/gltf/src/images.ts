@@ -229,7 +229,7 @@ export class TextureTable {
     const decoding = new Map<number, Promise<DecodedImage | undefined>>();
     for (const [at, index] of shown.entries()) {
       const before = decoding.get(shown[at - MAX_CONCURRENT] ?? -1);
-      // An error rejects the image's own promise only; the next image is read all the same.
+      // An error rejects the image's own promise only; the next image is still read.
       const promise = before
         ? before.then(
             () => read(index),

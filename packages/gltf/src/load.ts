@@ -165,7 +165,7 @@ export async function buildScene(
   if (scene.instances.length === 0 && !options.allowEmpty)
     throw new GltfError(
       'gltf/no-triangles',
-      `${source.name} has no triangles in its scene: pass allowEmpty to load it all the same.`,
+      `${source.name} has no triangles in its scene: pass allowEmpty to load it anyway.`,
       { location: { file: source.name } },
     );
   onProgress?.({ stage: 'decode', done: 1 });

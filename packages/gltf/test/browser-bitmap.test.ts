@@ -1,4 +1,4 @@
-// Bitmaps go to the GPU as the browser has them; nobody reads their pixels on the way.
+// Bitmaps go to the GPU as the browser has them; their pixels are not read before.
 import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { fileURLToPath } from 'node:url';

@@ -157,7 +157,7 @@ describe('extensions that the document requires', () => {
   });
 });
 
-test('names from the file cannot break a message into lines or drown it', async () => {
+test('names from the file cannot break a message into lines or hide it', async () => {
   const error = await outcome(
     spoiled((j) => {
       j['buffers'][0].uri = `a\nb\u2028${'x'.repeat(5000)}`;

@@ -1,4 +1,4 @@
-// Files that nobody writes by accident: small, by the letter or nearly so, and made to cost much. What would take the
+// Malicious files: small, valid or nearly so, and made to take much time or memory. What would take the
 // square of a file's size does not come back within the test's time.
 import { describe, expect, test } from 'vitest';
 import { validateScene } from '@glanz/scene';

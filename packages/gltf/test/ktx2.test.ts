@@ -78,7 +78,7 @@ test.skipIf(!present)(`a model with four KTX2 images${note}`, async () => {
     .find((binding) => binding !== undefined)!;
   const { width, height, data } = images[textures[normal.texture]!.image]!;
   expect([width, height]).toEqual([2048, 2048]);
-  // A map of normals holds vectors of length 1 that point outwards, whoever decodes it.
+  // A map of normals holds vectors of length 1 that point outwards, with every decoder.
   let length = 0,
     up = 0;
   const step = 4 * 97;

@@ -75,7 +75,7 @@ describe('compressions with loss give what the library gives', () => {
       }
     }
     expect(differing / count).toBeLessThan(0.1);
-    // And it is a loss that nobody sees: the image is still the one that was written.
+    // And the loss is invisible: the image is still the one that was written.
     const source = plain.channels.get('R')!.data,
       got = image.channels.get('R')!.data;
     for (let i = 0; i < source.length; i++)

@@ -229,7 +229,7 @@ function dielectric() {
     -1,
     (t, epsilon) => innerCosineOf(t, etaOf(epsilon)),
     split,
-    // Its mean is summed over facets where it counts (openpbr_dielectric_seen): nobody reads this column.
+    // Its mean is summed over facets where it counts (openpbr_dielectric_seen): this column is not read.
     (epsilon, r, row) => row.at(-1),
     (angles - 1) / 2,
   );
@@ -406,7 +406,7 @@ function encode({ width, height, depth, values }, step) {
 
 const note = '// Made by scripts/tables.mjs; do not edit.\n';
 
-// The sizes stand apart from the numbers: whoever wants only them does not get 24 kB of text.
+// The sizes stand apart from the numbers: code that needs only them does not include 24 kB of text.
 const sources = {
   // Written as reals, so that the shaders' quotients are real.
   'grid.wesl': `${note}

@@ -94,7 +94,7 @@ describe('values', () => {
     }
   });
 
-  it('without a word, colours are in ACEScg', () => {
+  it('by default, colours are in ACEScg', () => {
     expect(
       only(wrap('<input name="emission_color" type="color3" value="1, 1, 0" />', '', '')).parameters.emission_color![0],
     ).toBeCloseTo(1.083259, 5);

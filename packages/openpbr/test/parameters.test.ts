@@ -120,7 +120,7 @@ describe('validateParameters', () => {
     ]);
   });
 
-  it('takes every parameter at both ends of its range without a word, and no further', () => {
+  it('accepts every parameter at both ends of its range, and no further', () => {
     for (const { name, type, range } of Object.values(OPENPBR_PARAMETERS)) {
       if (!range) continue;
       const of = (value: number) => ({ [name]: type === 'float' ? value : [value, value, value] }) as never;

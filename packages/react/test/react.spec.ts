@@ -102,7 +102,7 @@ test('a file as src', async ({ page }) => {
   await expect.poll(async () => (await heard(page)).at(-1)).toMatch(/^error gltf\//);
 });
 
-test('what a server rendered is taken over without a complaint', async ({ page }) => {
+test('what a server rendered is hydrated without an error', async ({ page }) => {
   const props: GlanzViewerProps = { src: 'red.glb', cameraControls: true, ...FAST };
   const html = renderToString(createElement(GlanzViewer, props));
   await page.evaluate(([given, text]) => window.start(given as GlanzViewerProps, text as string), [

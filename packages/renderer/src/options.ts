@@ -141,7 +141,7 @@ export interface FirstLight {
 }
 
 /**
- * Most bounces of a kind in one path between surfaces; light falls on the last of them all the same, so 0 leaves direct
+ * Most bounces of a kind in one path between surfaces; the last of them is still lit, so 0 leaves direct
  * light. Up to 127 count. A bounce is diffuse where its density is below one half per steradian, as wide as
  * Lambert's or a roughness of 0.65, and specular otherwise; one through a surface counts as transmission whatever its
  * width.

@@ -56,7 +56,7 @@ function smallScene(): Scene {
 }
 
 /**
- * Does what the first scene on a page or in a process pays for and no later one does, while there is nothing to render
+ * Does what the first scene on a page or in a process takes time for and no later one does, while there is nothing to render
  * yet: a model is loading, say. Prepares a small scene of its own and adds a sample to it, so that the JavaScript
  * engine has compiled what goes over vertices and lights, and the device the kernels that most scenes share. What it
  * makes it frees again.

@@ -43,7 +43,7 @@ export interface Material {
   textures?: Partial<Record<TexturedParameter, TextureBinding>>;
   /**
    * Whether the back side emits as the front does (glTF `doubleSided`). Default false: emission leaves from the front
-   * (counter-clockwise) side only. Reflection is two-sided all the same; whether the camera sees the back of a material
+   * (counter-clockwise) side only. Reflection is still two-sided; whether the camera sees the back of a material
    * that is not double-sided is the renderer's option `backFaceCulling`.
    */
   double_sided?: boolean;

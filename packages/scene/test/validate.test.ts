@@ -218,7 +218,7 @@ const faults: [string, (scene: Scene) => void, string, RegExp][] = [
 ];
 
 describe('validateScene', () => {
-  test('a sound scene passes without a word', () => expect(validateScene(whole())).toEqual([]));
+  test('a valid scene passes without a warning', () => expect(validateScene(whole())).toEqual([]));
 
   test('cameras at the ends of their ranges pass', () => {
     const scene = whole();

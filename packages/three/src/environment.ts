@@ -66,7 +66,7 @@ async function readImage(
   };
   if (texture.mapping === PREFILTERED)
     return warn(
-      'The environment was prefiltered on the GPU (PMREMGenerator), where nobody can read it: assign the equirectangular or cube texture that it was made from to scene.environment before the conversion',
+      'The environment was prefiltered on the GPU (PMREMGenerator), where it cannot be read: assign the equirectangular or cube texture that it was made from to scene.environment before the conversion',
     );
   if (CUBE.includes(texture.mapping)) {
     const faces = await Promise.all(facesOf(texture).map((face) => textures.pixelsOf(face, texture)));

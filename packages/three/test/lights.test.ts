@@ -180,7 +180,7 @@ describe('environment', () => {
     const sides = { 1: [-1, 0, 0], 2: [1, 0, 0], 3: [0, 1, 0], 4: [0, -1, 0], 5: [0, 0, 1], 6: [0, 0, -1] } as const;
     for (const [red, [x, y, z]] of Object.entries(sides))
       expect(look(x + 0.01, y, z + 0.01)[0]).toBeCloseTo(Number(red), 5);
-    // Somebody in the middle who looks at a wall sees its image the right way round.
+    // From the middle, the image on a wall is not mirrored.
     for (const [x, , z] of [sides[1], sides[2], sides[5], sides[6]]) {
       const ahead = new THREE.Vector3(x, 0, z);
       const right = ahead.clone().cross(new THREE.Vector3(0, 1, 0));

@@ -11,7 +11,7 @@ describe('sRGB', () => {
   it('round-trips all 256 codes', () => {
     for (let i = 0; i < 256; i++) expect(Math.round(srgbEncode(srgbDecode(i / 255)) * 255)).toBe(i);
   });
-  it('clamps and swallows NaN', () => {
+  it('clamps, and writes NaN as 0', () => {
     expect([srgbEncode(-1), srgbEncode(NaN), srgbEncode(7), srgbDecode(NaN), srgbDecode(2)]).toEqual([0, 0, 1, 0, 1]);
   });
 });

@@ -19,7 +19,7 @@ export interface ConnectionEvents {
   readonly restored: (milliseconds: number) => void;
   /** No other one could be had, or what was lost could not be made again. */
   readonly failed: (error: unknown) => void;
-  /** The device complains of something. */
+  /** The device reports an error. */
   readonly error: (error: unknown) => void;
 }
 
@@ -138,7 +138,7 @@ export class Connection {
 
   #begin(): Promise<void> {
     const connecting = this.#first().finally(() => (this.#connecting = undefined));
-    // Whoever waits for it gets the error; a page without a model does not.
+    // Callers that wait for it get the error; a page without a model does not.
     connecting.catch(() => undefined);
     return (this.#connecting = connecting);
   }
@@ -169,7 +169,7 @@ export class Connection {
       // What was changed while it was made.
       await display.setView(this.#view);
     } catch (error) {
-      // The canvas lets go of the device first: a browser may give no adapter for a while otherwise.
+      // The canvas releases the device first: a browser may give no adapter for a while otherwise.
       this.#display?.destroy();
       this.#display = undefined;
       device.destroy();
@@ -210,7 +210,7 @@ export class Connection {
       this.#display?.destroy();
       this.#display = undefined;
       this.#events.recovering();
-      // A device that somebody destroyed on purpose does not come back by waiting.
+      // A device that the page destroyed does not come back by waiting.
       if (reason !== 'retry') await this.#losses.next();
       await this.#reconnect();
       this.#recovery = undefined;

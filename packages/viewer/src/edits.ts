@@ -20,7 +20,7 @@ export class Edits {
 
   /**
    * @returns When it, or a later one with its key, has taken effect.
-   * @throws what `apply` throws. Others with its key that wait with it take effect all the same.
+   * @throws what `apply` throws. Others with its key that wait with it still take effect.
    */
   add(key: unknown, apply: Apply, value: object = {}): Promise<void> {
     return new Promise((resolve, reject) =>
@@ -36,7 +36,7 @@ export class Edits {
     return waiting.length > 0;
   }
 
-  /** Drops all; whoever waits for them gets the reason. */
+  /** Drops all; their promises reject with the reason. */
   clear(reason: unknown): void {
     const waiting = [...this.#waiting.values()].flat();
     this.#waiting.clear();

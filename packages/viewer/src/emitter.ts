@@ -11,7 +11,7 @@ export class Emitter<Events extends object> {
   #listeners: Map<keyof Events, Set<(detail: never) => void>> | undefined = new Map();
 
   /**
-   * Adds a listener. Where one throws, the others are called all the same, and its error is an uncaught error of the
+   * Adds a listener. Where one throws, the others are still called, and its error is an uncaught error of the
    * page.
    *
    * @returns A function that removes the listener.

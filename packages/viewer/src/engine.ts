@@ -27,7 +27,7 @@ export interface ShowOptions {
 
 /**
  * Device, tracer and canvas: prepares scenes, renders them in a loop (a small preview while something moves, the image
- * when it rests, nothing when it is done or nobody sees it), and continues after the device was lost.
+ * when it rests, nothing when it is done or out of sight), and continues after the device was lost.
  */
 export class Engine {
   readonly settings: EngineSettings;
@@ -336,7 +336,7 @@ export class Engine {
     this.#loop.stir();
   }
 
-  /** A failure may have passed with what has changed. One for want of a device has not. */
+  /** A change may have removed the cause of a failure, unless that is a missing device. */
   #tryAgain(): void {
     if (this.device && this.device === this.#tracerDevice) this.#failed = false;
   }
@@ -348,7 +348,7 @@ export class Engine {
     this.#loop.stir();
   }
 
-  /** Whether a tracer is the one that is shown, on a device that is alive. */
+  /** Whether a tracer is the one that is shown, on a device that is not lost. */
   #current(tracer: PathTracer | undefined): boolean {
     const { device, recovery } = this.#connection;
     return tracer !== undefined && tracer === this.tracer && !!device && device === this.#tracerDevice && !recovery;

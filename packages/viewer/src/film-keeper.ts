@@ -42,7 +42,7 @@ export class FilmKeeper {
   }
 
   /**
-   * Copies the samples of a film if it is time to. Nobody has to wait.
+   * Copies the samples of a film if it is time to. Does not block.
    *
    * @param done Whether no more samples are to come.
    */

@@ -1,9 +1,9 @@
 import type { Camera } from '@glanz/scene';
 
-/** Width over height that a camera without a word about it is taken to be made for. */
+/** Width over height that a camera without an aspect ratio is assumed to have. */
 const USUAL_ASPECT = 4 / 3;
 
-/** The camera as it fits an image of another shape than its author had in mind: nothing of the view is cut off. */
+/** The camera as it fits an image of another aspect ratio: nothing of the view is cut off. */
 export function fitCamera(camera: Camera, aspect: number): Camera {
   if (camera.type === 'panorama') return camera;
   if (camera.type === 'orthographic') {

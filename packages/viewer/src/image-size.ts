@@ -1,6 +1,6 @@
 /** Maximum pixels of the image: beyond, a sample of a large window takes too long to be called interactive. */
 const MAX_PIXELS = 4_194_304;
-/** Beyond two pixels of the screen to a CSS pixel eyes see no gain, but the GPU pays for it. */
+/** More than two image pixels per CSS pixel take time and show no visible gain. */
 const MAX_RATIO = 2;
 
 /**

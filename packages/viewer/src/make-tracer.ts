@@ -38,7 +38,7 @@ export async function makeTracer(
       tracer.destroy();
     } catch (error) {
       tracer?.destroy();
-      // The news of a loss may come later than its consequences.
+      // A loss may be reported after the errors that it causes.
       await soon();
       if (isAbort(error) || more.signal?.aborted || !lost()) throw error;
     }

@@ -256,7 +256,7 @@ export class OrbitRig {
     this.#now = {
       yaw: mix(now.yaw, goal.yaw),
       pitch: mix(now.pitch, goal.pitch),
-      // Distances go by ratios: coming nearer looks as fast from afar as from close by.
+      // Distances are interpolated by their ratio: coming nearer looks as fast from afar as from close by.
       distance: now.distance * (goal.distance / now.distance) ** share,
       zoom: now.zoom * (goal.zoom / now.zoom) ** share,
       target: lerp([0, 0, 0], now.target, goal.target, share),

@@ -21,7 +21,7 @@ export class Preparation {
   }
 
   /**
-   * Does ahead, until the first tracer is asked for, what that one would pay for, see `warmUp` of the renderer.
+   * Does ahead, until the first tracer is asked for, what would delay that one, see `warmUp` of the renderer.
    *
    * @param wanted Undefined: unless the adapter is software, whose CPU is busy enough.
    */
@@ -35,7 +35,7 @@ export class Preparation {
    * Makes a tracer. One that is being made already is given up at once; what still comes of it is freed.
    *
    * @param make Starts at once; its signal says that it is not wanted any more.
-   * @param take Gets the tracer while this still counts as running, so that nobody sees the time in between.
+   * @param take Gets the tracer while this still counts as running, so that no code runs in between.
    * @param signal Of the caller.
    * @throws what `make` throws; an `AbortError` where another one is asked for meanwhile; the signal's reason;
    * {ViewerError} `viewer/destroyed`.

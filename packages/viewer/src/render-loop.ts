@@ -26,7 +26,7 @@ export interface LoopEngine {
   readonly display: () => Display | undefined;
   /** Why nothing can be rendered at present, or undefined. */
   readonly blocked: () => ViewerState | undefined;
-  /** Whether a tracer is the one that is shown, on a device that is alive. */
+  /** Whether a tracer is the one that is shown, on a device that is not lost. */
   readonly isCurrent: (tracer: PathTracer | undefined) => boolean;
   readonly failed: (error: unknown) => void;
 }
@@ -36,7 +36,7 @@ const imageOf = (tracer: PathTracer): GpuImage => ({ buffer: tracer.beautyBuffer
 
 /**
  * Renders a tracer's film to a canvas: a small preview while something moves, then the image until it is done. Sleeps
- * when there is nothing to do or nobody sees the canvas.
+ * when there is nothing to do or the canvas is out of sight.
  */
 export class RenderLoop {
   readonly #settings: EngineSettings;
@@ -152,7 +152,7 @@ export class RenderLoop {
 
   /** Shows another tracer. @param restored Whether its film holds the samples of the image already. */
   show(tracer: PathTracer, restored: boolean): void {
-    // Who asks for the canvas's size before the first image is drawn gets the one that it will have.
+    // Code that reads the canvas's size before the first image is drawn gets its final size.
     if (!this.#tracer) this.#engine.display()?.resize(this.#canvasSize);
     this.#tracer?.destroy();
     this.#tracer = tracer;

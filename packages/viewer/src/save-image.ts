@@ -73,7 +73,7 @@ function checked(viewer: ShownImage, options: BlobOptions, checks: Checks): Want
 
 /**
  * Waits until the image on the screen is the wanted one.
- * @returns Its tracer, or `undefined` where it never will be, or nobody knows when: then it has to be rendered
+ * @returns Its tracer, or `undefined` where it never will be, or at an unknown time: then it has to be rendered
  * separately.
  */
 async function screenImage(

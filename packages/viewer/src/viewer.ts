@@ -71,7 +71,7 @@ export class Viewer {
   }
 
   /**
-   * Adds a listener for an event. Where one throws, the others are called all the same, and its error is an uncaught
+   * Adds a listener for an event. Where one throws, the others are still called, and its error is an uncaught
    * error of the page.
    *
    * @returns A function that removes the listener.

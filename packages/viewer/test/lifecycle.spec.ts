@@ -163,7 +163,7 @@ test('destroy() at any moment, twice, frees everything, and ends what is waited 
   expect(early).toEqual(['AbortError', {}]);
 });
 
-test('the canvas lets go of a device before it is destroyed', async ({ page }) => {
+test('the canvas releases a device before it is destroyed', async ({ page }) => {
   await page.addInitScript(() => {
     window.order = [];
     for (const [prototype, name] of [
@@ -184,7 +184,7 @@ test('the canvas lets go of a device before it is destroyed', async ({ page }) =
   expect(await page.evaluate(() => window.order)).toEqual(['unconfigure', 'destroy']);
 });
 
-test('sizes of nothing, one pixel, and a great many, one after the other: the last one counts, and the GPU has nothing to complain of', async ({
+test('sizes of zero, one pixel and millions of pixels in sequence: the last one counts, and the GPU reports no error', async ({
   page,
 }) => {
   await injectFaults(page);
@@ -251,7 +251,7 @@ test('in a tab that is hidden again and again nothing is submitted, and the imag
   expect(await film()).toBe(before);
 });
 
-test('a GPU that complains outside of any call is reported by the error event, and the viewer keeps working', async ({
+test('a GPU error outside of any call is reported by the error event, and the viewer keeps working', async ({
   page,
 }) => {
   await injectFaults(page);

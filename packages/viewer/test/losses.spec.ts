@@ -121,7 +121,7 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
     // The first, one in the middle, and one late.
     for (const at of new Set([1, Math.ceil(calls / 2), Math.ceil(0.8 * calls)])) {
       if (at > calls) continue;
-      // By turns as drivers do it, and as somebody who destroys the device.
+      // Alternately as drivers do it, and by destroying the device.
       const end = await attempt({ [point]: at }, tried % 3 === 2 ? 'destroyed' : 'unknown');
       // How many frames a preview has depends on the machine's speed: not every run gets so far.
       if (!end.lost) continue;

@@ -174,7 +174,7 @@ describe('OrbitRig', () => {
     expect(rig.goal.radius).toBeGreaterThan(0);
   });
 
-  it('keeps to its limits, whoever moves it', () => {
+  it('keeps to its limits, by user input and by calls', () => {
     const rig = new OrbitRig(front, bounds, {
       damping: 0,
       limits: { theta: [-0.5, 0.5], phi: [1, 2], radius: [4, 6] },

@@ -272,7 +272,7 @@ test('a film that had to be smaller takes the whole size, and its shape, once th
   const [width, height] = await page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]);
   expect(width).toBeLessThan(220);
   expect(height).toBe(width);
-  // Nobody touches the page.
+  // There is no input to the page.
   await page.evaluate(() => void (window.gpuFaults.memory = undefined));
   await expect
     .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))

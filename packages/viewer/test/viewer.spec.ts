@@ -285,7 +285,7 @@ test('resizing keeps the image sharp and the view whole', async ({ page }) => {
   const { cells } = await shot(page);
   expect(cells[3]![0]).toBeGreaterThan(1.2 * cells[3]![1]);
   expect(cells[5]![1]).toBeGreaterThan(1.2 * cells[5]![0]);
-  // A box of no size draws nothing, and complains of nothing.
+  // A box of no size draws nothing, and reports no error.
   await page.evaluate(() => void (document.querySelector('canvas')!.style.display = 'none'));
   await page.waitForTimeout(200);
   await page.evaluate(() => void (document.querySelector('canvas')!.style.display = 'block'));
@@ -315,11 +315,11 @@ test('out of sight nothing is computed; back in sight it continues', async ({ pa
   await expect.poll(() => page.evaluate(() => window.viewer.state)).toBe('hidden');
   await page.waitForTimeout(150);
   const count = () => page.evaluate(() => window.heard.filter(({ type }) => type === 'sample').length);
-  const asleep = await count();
+  const hiddenCount = await count();
   await page.waitForTimeout(500);
-  expect(await count()).toBe(asleep);
+  expect(await count()).toBe(hiddenCount);
   await page.evaluate(() => void (document.querySelector('canvas')!.style.marginTop = '0'));
-  await expect.poll(count).toBeGreaterThan(asleep);
+  await expect.poll(count).toBeGreaterThan(hiddenCount);
 });
 
 test('a bad file is reported in one line with its code, and the former model stays', async ({ page }) => {

@@ -7,7 +7,7 @@ export interface Model {
   /** Name of its files in the output. */
   readonly id: string;
   readonly file: string;
-  /** What somebody says it is for. */
+  /** What it is for. */
   readonly note: string;
 }
 

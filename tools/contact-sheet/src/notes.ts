@@ -1,6 +1,5 @@
 /**
- * What somebody who knows a model from elsewhere may wonder about in its image, and why it is so. Whoever changes
- * what is seen changes the note.
+ * Where the image of a model differs from that of other renderers, and why. A change of the image changes the note.
  */
 export const NOTES: Readonly<Record<string, string>> = {
   SunglassesKhronos: 'The lenses shine from violet to blue: a thin film over a nearly black body.',
@@ -18,7 +17,7 @@ export const NOTES: Readonly<Record<string, string>> = {
   MixedLightingExample:
     "Overexposed: its sun has 2,049 lux, as glTF asks for, and images here are taken without a camera's exposure. With `--exposure -10` it is right.",
   'geometry-camera-light': 'Overexposed, as MixedLightingExample: its lights are in candela and lux.',
-  LightsPunctualLamp: 'The bulbs are points, which nobody sees; the shades glow by what passes through them.',
+  LightsPunctualLamp: 'The bulbs are points, which are invisible; the shades glow by what passes through them.',
   'blenderio-15_transmission':
     'White metal, as it says: the materials leave metallicFactor at its default, 1, and metals transmit nothing.',
   'openpbr-shader-ball': 'Black and rough, as its only material says: it is a shape for other materials.',

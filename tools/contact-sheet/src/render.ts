@@ -25,7 +25,7 @@ export interface Row {
   readonly renderMs: number;
 }
 
-/** Nobody waits longer for one model. */
+/** Time limit of one model. */
 const LIMIT_MS = 300_000;
 
 /** A GPU that renders one model after the other. A device that is lost is replaced. */

@@ -67,7 +67,7 @@ export const commandsFrom = (page: string, has: string, section?: string): strin
 export const installedBy = (page: string, has: string, section?: string): string[] =>
   shellBlock(page, has, section).flatMap((line) => /^npm install (.+)$/.exec(line)?.[1]?.split(' ') ?? []);
 
-/** Lines that somebody would have to write. */
+/** Lines that a user would have to write. */
 export const linesOf = (code: string): number => code.split('\n').filter((line) => line.trim() !== '').length;
 
 /** A fresh folder with a project in it. */

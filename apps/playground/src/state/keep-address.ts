@@ -10,7 +10,7 @@ export function keepAddress(store: Store<State>, model: () => string | undefined
   const write = async () => {
     const name = model();
     if (!name) return;
-    // Who only looks does not need it.
+    // Not needed while nothing is changed.
     const { encodeLink, linkContent, LONGEST_LINK } = await import('./link');
     const link = await encodeLink(linkContent(name, store.state, environment()));
     if (link.length <= LONGEST_LINK) history.replaceState(history.state, '', `#${link}`);

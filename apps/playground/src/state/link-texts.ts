@@ -23,7 +23,7 @@ export function textForSender(content: LinkContent, dropped: boolean): string {
   const files = leftOut(content, dropped);
   return (
     files &&
-    `The link does not hold ${files}: files do not fit into an address. Send them along; whoever opens the link is asked for them.`
+    `The link does not hold ${files}: files do not fit into an address. Send them along; the page asks for them when the link is opened.`
   );
 }
 

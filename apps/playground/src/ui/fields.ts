@@ -5,7 +5,7 @@ import { icon } from './icons';
 /** A labelled control. */
 export interface Field<T> {
   readonly element: HTMLElement;
-  /** Shows another value, without telling anybody. */
+  /** Shows another value, without an event. */
   set(value: T): void;
   /** What the way back leads to from now on; undefined takes it away. */
   setInitial(value: T | undefined): void;

@@ -12,7 +12,7 @@ const PATHS = {
 } as const;
 export type IconName = keyof typeof PATHS;
 
-/** An icon; it says nothing to those who cannot see it, so its button needs a name. */
+/** An icon; it is hidden from assistive technology, so its button needs a name. */
 export function icon(name: IconName): SVGSVGElement {
   const space = 'http://www.w3.org/2000/svg';
   const svg = document.createElementNS(space, 'svg');

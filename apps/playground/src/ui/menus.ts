@@ -5,7 +5,7 @@ import { textForSender } from '../state/link-texts';
 import type { Context } from './context';
 import { byId, element } from './elements';
 
-/** One line of a menu: what it does, and a word about it. */
+/** One line of a menu: what it does, and a short description. */
 function item(
   id: string,
   title: string,

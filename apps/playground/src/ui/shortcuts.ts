@@ -21,7 +21,7 @@ const typing = (target: EventTarget | null) =>
 const named = ({ key, ctrlKey, metaKey, shiftKey }: KeyboardEvent) =>
   `${ctrlKey || metaKey ? 'mod+' : ''}${shiftKey && (key.length > 1 || /^[a-z]$/i.test(key)) ? 'shift+' : ''}${key.toLowerCase()}`;
 
-/** Runs commands by their keys wherever nobody types. */
+/** Runs commands by their keys, except in text fields. */
 export function wireShortcuts(shortcuts: readonly Shortcut[]): void {
   window.addEventListener('keydown', (event) => {
     if (event.defaultPrevented || event.altKey || typing(event.target) || document.querySelector('dialog[open]'))

@@ -270,7 +270,7 @@ export class Session {
     apply: (tracer: PathTracer, merged: object) => void | Promise<void>,
     value: object = {},
   ): Promise<void> {
-    // Whoever prepares a scene brings what was changed meanwhile.
+    // The preparation of a scene includes what was changed meanwhile.
     if (this.#preparing > 0) return;
     this.#askedAt ??= performance.now();
     await this.#engine.edit(key, apply, value).catch(this.#report);

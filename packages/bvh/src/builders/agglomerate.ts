@@ -215,7 +215,7 @@ export class Agglomerator {
       }
       state[NEAREST + i] = own;
     }
-    // Identical boxes: by twos, or one would swallow the others one after the other.
+    // Identical boxes are joined in pairs, or one would absorb the others one after the other.
     if (byTwos || different === 0) for (let i = 0; i < left; i++) state[NEAREST + i] = i ^ 1;
   }
 

@@ -28,7 +28,7 @@ describe('Team', () => {
     expect(b.float32(5)[4]).toBe(0.5);
   });
 
-  // One thread plays both, so whoever comes second must not have to wait.
+  // One thread plays both, so the second must not have to wait.
   it('does not wait for what is published already', () => {
     const [a, b] = both();
     b.publish();

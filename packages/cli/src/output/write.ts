@@ -87,7 +87,7 @@ export async function writeWhole(
   const file = resolve(cwd, path);
   const partial = `${file}.${process.pid}.partial`;
   try {
-    // Not through a link that somebody has put in its place.
+    // Not through a link in its place.
     const handle = await open(partial, REPLACE);
     try {
       for (const part of parts) await handle.writeFile(part);

@@ -20,7 +20,7 @@ export class GpuGoneError extends CliError {
 
 /** Milliseconds before each attempt to get a device after a loss. Drivers that restart need a few seconds. */
 const BACK_OFF = [0, 300, 1000, 3000, 10_000];
-/** Milliseconds that the news of a loss may come after the error that it caused. */
+/** Milliseconds that the report of a loss may come after the error that it caused. */
 const LATE_NEWS = 100;
 
 /** What a {@link RecoverableGpu} works with. */
@@ -33,7 +33,7 @@ export interface GpuContext {
 
 /** What people can do about a GPU that is gone. */
 export const GPU_ADVICE =
-  'Often it ran out of memory, its driver crashed or was updated, or the machine was asleep: close other programs that use it, try a smaller --size, update the driver, or choose another one with --gpu (see glanz --list-gpus; --gpu software uses the processor).';
+  'Often it ran out of memory, its driver crashed or was updated, or the machine was suspended: close other programs that use it, try a smaller --size, update the driver, or choose another one with --gpu (see glanz --list-gpus; --gpu software uses the processor).';
 
 /**
  * A GPU by name, with its device: opened when it is first needed, watched, and opened again after a loss.

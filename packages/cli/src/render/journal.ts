@@ -9,7 +9,7 @@ import type { Shot } from './shots';
 /** Lies beside the first file of an image. A line of JSON for each image that is done. */
 export const JOURNAL = '.glanz-journal.jsonl';
 
-// Not through a link that somebody has put in its place.
+// Not through a link in its place.
 const APPEND = constants.O_WRONLY | constants.O_CREAT | constants.O_APPEND | (constants.O_NOFOLLOW ?? 0);
 
 const fileOf = (shot: Shot, cwd: string) =>

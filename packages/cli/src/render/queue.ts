@@ -56,7 +56,7 @@ export class JobQueue {
     this.#wake();
   }
 
-  /** What nobody has taken. */
+  /** Jobs that were not taken. */
   rest(): Job[] {
     return this.#waiting.splice(0);
   }

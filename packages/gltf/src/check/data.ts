@@ -72,7 +72,7 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
       context.warn(
         'gltf/data',
         `${path}/uri`,
-        `is a data: uri of ${what}, but must be base64 of ${BUFFER_TYPES.join(' or ')}; it is read all the same`,
+        `is a data: uri of ${what}, but must be base64 of ${BUFFER_TYPES.join(' or ')}; it is read anyway`,
       );
     }
   });

@@ -17,7 +17,7 @@ export function takeApart(bytes: Uint8Array<ArrayBuffer>): Parts {
   return bytes.length > 28 + length ? { json, binary: bytes.slice(28 + length) } : { json };
 }
 
-/** What stands in files that mean harm, or that nobody has thought of. */
+/** Values of malicious and of unusual files. */
 const VALUES: readonly unknown[] = [
   null,
   true,

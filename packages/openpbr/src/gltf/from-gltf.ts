@@ -55,7 +55,7 @@ const ior: GltfMappingStep = ({ extensions }, parameters) => {
 };
 
 /**
- * A surface of volume or of none. Without thickness it is a sheet; with it, absorption goes by Beer's law as in glTF.
+ * A surface of volume or of none. Without thickness it is a sheet; with it, absorption follows Beer's law as in glTF.
  * OpenPBR tints either the surface or the interior: where glTF's volume absorbs, the base colour does not tint what
  * goes through.
  */

@@ -44,7 +44,7 @@ function entry<Name extends OpenPbrParameterName>(
   });
 }
 
-// A function, so that bundlers can drop the table where nobody reads it.
+// A function, so that bundlers can drop the table where it is not used.
 const table = (): Table => ({
   base_weight: entry(
     'base',

@@ -7,7 +7,7 @@ import type { OpenPbrParameters } from '../parameters/index';
  * Copyright Contributors to the OpenPBR project. Licensed under the Apache License, Version 2.0:
  * `licenses/Apache-2.0.txt`.
  */
-// A function, so that bundlers can drop the data where nobody reads it.
+// A function, so that bundlers can drop the data where it is not used.
 export const examples = () =>
   ({
     aluminum_brushed: {

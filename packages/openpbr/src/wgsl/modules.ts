@@ -30,7 +30,7 @@ import transmission from './transmission.wesl';
  * fn openpbr_prepare_side(p: OpenPbrParameters, wo: vec3f, side: OpenPbrSide) -> OpenPbrBsdf
  * fn openpbr_eval(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec3f       // f · |cos θ_i|
  * fn openpbr_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> f32          // density of openpbr_sample, per solid angle
- * fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f   // both for the price of one
+ * fn openpbr_eval_pdf(b: OpenPbrBsdf, wo: vec3f, wi: vec3f) -> vec4f   // both at the cost of one
  * fn openpbr_sample(b: OpenPbrBsdf, wo: vec3f, u: vec3f) -> OpenPbrSample // u uniform in [0, 1)³
  * // Reflected and transmitted part of uniform light, approximate for tinted metal.
  * fn openpbr_albedo(b: OpenPbrBsdf, wo: vec3f) -> vec3f

@@ -43,7 +43,7 @@ export class KernelCache {
 
   /**
    * All kernels of the main loop, compiled side by side.
-   * @param hear Told how far they are, 1 at the end, and each one as it comes, whoever has asked for them first.
+   * @param hear Told how far they are, 1 at the end, and each one as it comes, also where another caller asked for them first.
    */
   async get(features: KernelFeatures, hear?: Hear): Promise<KernelSet> {
     const key = JSON.stringify(features);

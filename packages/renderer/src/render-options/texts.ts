@@ -15,7 +15,7 @@ export interface RenderOptionText {
   readonly softRange?: readonly [number, number];
 }
 
-/** The texts of all options of {@link RENDER_OPTIONS}. Literals only: bundlers keep expressions that nobody reads. */
+/** The texts of all options of {@link RENDER_OPTIONS}. Literals only: bundlers keep unused expressions. */
 export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOptionText>> = {
   samples: {
     doc: 'Samples per pixel. With a noise target it is the maximum, by default 65536.',

@@ -22,7 +22,7 @@ export interface RenderLoop {
 const IN_FLIGHT = 2;
 /**
  * Batches that take so many times the budget go one by one: where the GPU cannot keep to it, the pause between two of
- * them is nothing to what whoever interrupts the work would have to wait for a second one.
+ * them is short compared with the time that an interruption would wait for a second one.
  */
 const LATE = 1.25;
 
@@ -64,7 +64,7 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
     lastDone = performance.now();
     check();
     await oldest.verified;
-    // News of the batch before may have come late, which would make this one look short and the next one far too long:
+    // The report of the batch before may have come late, which would make this one look short and the next one far too long:
     // of batches that follow each other, the time of two counts.
     const paths = oldest.batch.pixelCount * oldest.batch.sampleCount;
     const shared =

@@ -106,7 +106,7 @@ export class Scheduler {
     const paths = batch.pixelCount * batch.sampleCount;
     const cost = this.#cost;
     cost.measured(paths, milliseconds);
-    // What every batch costs, however small, must not eat up most of the time.
+    // What every batch costs, however small, must not take most of the time.
     const budget = Math.max(this.budget, 3 * cost.fixed);
     if (milliseconds > budget * 1.5) {
       const factor = Math.max(0.25, (0.8 * budget) / milliseconds);

@@ -90,7 +90,7 @@ export async function runStages<Products>(
     const begin = performance.now();
     try {
       const product = await stage.run(products as Products, { signal: inner.signal });
-      // Too late for the run, which no longer waits for this stage: nobody else would free it.
+      // Too late for the run, which no longer waits for this stage: nothing else would free it.
       if (failure && stage.place === 'elsewhere') return release?.(product);
       products[name] = product;
       made.push(stage);

@@ -42,7 +42,7 @@ export function showFirstLight(
 ): () => void {
   const { device, scene, geometry, camera, cache, features, options } = source;
   const { width, height } = options;
-  // Its own accounts: it is gone before anybody asks for them.
+  // Its own accounts: it is gone before they can be read.
   const memory = new GpuMemory(device);
   const draw = async () => {
     const kernel = await cache.kernel('first', features);

@@ -61,7 +61,7 @@ describe('a film as bytes', () => {
     }
   });
 
-  it('is refused, or read, but never fails otherwise with a header that somebody has changed', () => {
+  it('is refused, or read, but never fails otherwise with a header that was changed', () => {
     const bytes = encodeFilmState(state());
     for (let at = 0; at < 360; at++) {
       for (const value of [0, 0x22, 0x39, 0x7d, 0xff]) {

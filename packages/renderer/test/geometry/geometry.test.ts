@@ -67,7 +67,7 @@ test('joined slices write the same bytes to the same places, in far fewer pieces
   const scene = createScene('joined');
   for (let i = 0; i < 40; i++) addSphere(scene, 0.1, [i, 0, 0], grey, 8 + 2 * (i % 4));
   addSphere(scene, 1, [0, 2, 0], grey, 200);
-  // A mesh that nobody uses lies between the others without a word of its own.
+  // An unused mesh between the others takes no words of the buffer.
   scene.instances.splice(20, 1);
   const blas = scene.meshes.map(({ positions, indices }, i) =>
     i === 20 ? undefined : buildBlas({ positions, indices }),

@@ -401,7 +401,7 @@ describe('edits of a live tracer', () => {
       expect(tracer.adjustEnvironment({ intensity: 2 })).rejects.toMatchObject({ code: 'renderer/environment' }),
     ]);
     expect(tracer.scene.environment).toEqual({ type: 'constant', radiance: [1, 1, 1] });
-    // One that is refused keeps nobody waiting.
+    // One that is refused delays no other.
     await Promise.all([
       expect(tracer.setEnvironment({ ...first, data: new Float32Array(3) })).rejects.toMatchObject({
         code: expect.stringMatching(/^scene\//),

@@ -63,7 +63,7 @@ it('compiles what scenes share, and keeps no memory', async () => {
   expect(compiled).toEqual(['glanz shade']);
 });
 
-it('can be given up, before or meanwhile, and leaves errors to those who can do something about them', async () => {
+it('can be aborted, before or meanwhile, and reports no errors of its own', async () => {
   const { watched, compiled, buffers } = watch();
   await warmUp(watched, { signal: AbortSignal.abort() });
   expect(compiled).toEqual([]);

@@ -41,7 +41,7 @@ const CHANGES: Readonly<Record<string, Change>> = {
   'a contact block': (tracer, turn) => show(tracer, [[], blocks['Contact block NC']], turn),
 };
 
-/** From a click to the first sample of the whole image with the change in it: the price of a change. */
+/** From a click to the first sample of the whole image with the change in it: the cost of a change. */
 export const benchmark: Benchmark = {
   description:
     'the push-button configurator: milliseconds from a change to the first image that shows it, by kind of change',

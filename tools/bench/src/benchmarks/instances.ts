@@ -7,7 +7,7 @@ const COUNTS = [1_000, 10_000, 100_000];
 /** Every so many instances one glows. */
 const GLOW_EVERY = 2_500;
 
-/** A surface of revolution around y: `profile` holds radius and height by turns. */
+/** A surface of revolution around y: `profile` holds radius and height alternately. */
 function lathe(name: string, profile: readonly (readonly [radius: number, height: number])[], segments: number): Mesh {
   const positions = new Float32Array(profile.length * (segments + 1) * 3);
   const indices: number[] = [];

@@ -223,7 +223,7 @@ How wrong is an image after a second? Glanz beside [three-gpu-pathtracer](https:
 - **FLIP.** What an eye notices when it flips between image and reference, after Andersson et al. 2020, on tone-mapped images.
 - **GPU time.** By timestamps around every submission; the clock's own cost is subtracted, in favour of who submits often. The peer is measured in its best batching, all pixels' paths in flight, and without its preview.
 - **Fairness.** Everything that trades truth for smoothness is off in the peer (clamps, blurred gloss); a second table has it on, as its users get it. Glanz has its defaults: it has no such options on.
-- strahl 0.1.0 is not here: it has no textures, and its estimator (BSDF sampling alone: no light is sampled) is no setting of Glanz, so it cannot be emulated honestly. Its time per sample is a target of the benchmark \`paper-gpu\`.
+- strahl 0.1.0 is not here: it has no textures, and its estimator (BSDF sampling alone: no light is sampled) is no setting of Glanz, so it cannot be emulated. Its time per sample is a target of the benchmark \`paper-gpu\`.
 
 `;
 
