@@ -57,6 +57,8 @@ export function relMse(candidate: ArrayLike<number>, reference: ArrayLike<number
  *
  * @param candidate RGB, stride 3, linear, top row first.
  * @param samples Samples per pixel behind `candidate`.
+ * @param noise Standard error of the candidate's mean, as a share of that of independent samples: Sobol points that
+ * pixels share leave less. 0..1, default 1. It counts for T1.
  * @throws {ReferenceError} `reference/size` when the images differ in size.
  */
 export function compareImages(
@@ -65,6 +67,7 @@ export function compareImages(
   reference: ReferenceImage,
   size: { readonly width: number; readonly height: number },
   tolerance: Tolerance,
+  noise = 1,
 ): Comparison {
   const { mean, standardError, stats } = reference;
   if (candidate.length !== mean.length)
@@ -84,15 +87,15 @@ export function compareImages(
   );
 
   // The candidate's own noise is unknown: the reference's, scaled by samples, stands in.
-  const scale = 1 + stats.spp / samples;
-  const variance = Float64Array.from(standardError, (se) => se * se * scale);
+  const ratio = stats.spp / samples;
+  const variance = Float64Array.from(standardError, (se) => se * se * (1 + ratio));
 
   for (const [c, channel] of ['red', 'green', 'blue'].entries()) {
     let [sumCandidate, sumReference, sumVariance] = [0, 0, 0];
     for (let i = c; i < mean.length; i += 3) {
       sumCandidate += candidate[i]!;
       sumReference += mean[i]!;
-      sumVariance += variance[i]!;
+      sumVariance += standardError[i]! ** 2 * (1 + ratio * noise * noise);
     }
     check(
       `T1 mean ${channel}`,

@@ -3,28 +3,48 @@ import type { Scene } from '@glanz/scene';
 import { compareImages, type Comparison } from './compare';
 import type { GroundTruth } from './catalogue';
 
-/** Renders a scene and gives its image: RGB, stride 3, linear, top row first. */
-export async function renderImage(
+/**
+ * Renders a scene, and gives its image at each of these numbers of samples: RGB, stride 3, linear, top row first.
+ *
+ * @param counts Samples per pixel, ascending: all images are of one film, so that later ones contain those before.
+ */
+export async function renderImages(
   device: GPUDevice,
   scene: Scene,
-  options: PathTracerOptions & { readonly samples: number },
-): Promise<Float32Array> {
-  const { samples, ...rest } = options;
-  const tracer = await PathTracer.create(device, scene, rest);
+  counts: readonly number[],
+  options: PathTracerOptions,
+): Promise<Float32Array[]> {
+  const tracer = await PathTracer.create(device, scene, options);
   try {
-    for await (const progress of tracer.render({ samples })) void progress;
-    const beauty = await tracer.read('beauty');
-    const image = new Float32Array((beauty.length / 4) * 3);
-    for (let i = 0; i < beauty.length / 4; i++) image.set(beauty.subarray(4 * i, 4 * i + 3), 3 * i);
-    return image;
+    const images: Float32Array[] = [];
+    for (const samples of counts) {
+      for await (const progress of tracer.render({ samples })) void progress;
+      const beauty = await tracer.read('beauty');
+      const image = new Float32Array((beauty.length / 4) * 3);
+      for (let i = 0; i < beauty.length / 4; i++) image.set(beauty.subarray(4 * i, 4 * i + 3), 3 * i);
+      images.push(image);
+    }
+    return images;
   } finally {
     tracer.destroy();
   }
 }
 
+/** Renders a scene and gives its image: RGB, stride 3, linear, top row first. */
+export async function renderImage(
+  device: GPUDevice,
+  scene: Scene,
+  { samples, ...options }: PathTracerOptions & { readonly samples: number },
+): Promise<Float32Array> {
+  const [image] = await renderImages(device, scene, [samples], options);
+  return image as Float32Array;
+}
+
 /** Options for {@link renderGroundTruth}. */
 export interface GroundTruthOptions {
   readonly samples: number;
+  /** Share of the noise of independent samples that is left, see {@link compareImages}. Default 1. */
+  readonly noise?: number;
   /** Default `full`. */
   readonly variant?: string;
   readonly seed?: number;
@@ -32,25 +52,22 @@ export interface GroundTruthOptions {
   readonly sampler?: NonNullable<PathTracerOptions['sampler']>;
 }
 
-/** Renders a scene of the catalogue the way its reference was (single scattering) and compares. */
+/** How a scene of the catalogue is rendered: as its reference was, with single scattering. */
+export function groundTruthOptions(
+  truth: GroundTruth,
+  { variant = 'full', seed = 0, sampler = 'blue-noise' }: Omit<GroundTruthOptions, 'samples' | 'noise'>,
+): PathTracerOptions {
+  const { width, height } = truth.description.film;
+  return { width, height, seed, sampler, maxDepth: truth.maxDepth(variant), camera: 0, multipleScattering: false };
+}
+
+/** Renders a scene of the catalogue the way its reference was and compares. */
 export async function renderGroundTruth(
   device: GPUDevice,
   truth: GroundTruth,
-  { samples, variant = 'full', seed = 0, sampler = 'blue-noise' }: GroundTruthOptions,
+  { samples, noise = 1, ...how }: GroundTruthOptions,
 ): Promise<{ image: Float32Array; comparison: Comparison }> {
-  const { width, height } = truth.description.film;
-  const image = await renderImage(device, await truth.scene(), {
-    width,
-    height,
-    samples,
-    seed,
-    sampler,
-    maxDepth: truth.maxDepth(variant),
-    camera: 0,
-    multipleScattering: false,
-  });
-  return {
-    image,
-    comparison: compareImages(image, samples, truth.image(variant), { width, height }, truth.tolerance),
-  };
+  const image = await renderImage(device, await truth.scene(), { ...groundTruthOptions(truth, how), samples });
+  const { film } = truth.description;
+  return { image, comparison: compareImages(image, samples, truth.image(how.variant), film, truth.tolerance, noise) };
 }

@@ -1,6 +1,6 @@
 import { relMse } from './compare';
 import type { GroundTruth } from './catalogue';
-import { renderGroundTruth } from './render';
+import { groundTruthOptions, renderImages } from './render';
 
 /** An error that was measured at some number of samples. */
 export interface ConvergencePoint {
@@ -23,7 +23,12 @@ export function convergenceSlope(points: readonly ConvergencePoint[]): number {
   );
 }
 
-/** Errors of a scene at several numbers of samples, by the independent sampler, each over `runs` seeds of its own. */
+/**
+ * Errors of a scene at several numbers of samples, by the independent sampler, each the mean over `runs` seeds.
+ *
+ * @param counts Ascending. Those of a seed are read from one film as it grows: neighbours on the line share half of their
+ * samples, which moves both the same way, so the slope is known as well as from films of their own, in half the time.
+ */
 export async function measureConvergence(
   device: GPUDevice,
   truth: GroundTruth,
@@ -31,15 +36,12 @@ export async function measureConvergence(
   runs: number,
 ): Promise<ConvergencePoint[]> {
   const reference = truth.image();
-  const points: ConvergencePoint[] = [];
-  let seed = 1;
-  for (const samples of counts) {
-    let sum = 0;
-    for (let run = 0; run < runs; run++) {
-      const { image } = await renderGroundTruth(device, truth, { samples, seed: seed++, sampler: 'independent' });
-      sum += relMse(image, reference.mean, reference.stats.relmse_eps);
-    }
-    points.push({ samples, error: sum / runs - reference.stats.relmse_of_reference });
+  const scene = await truth.scene();
+  const sums = counts.map(() => 0);
+  for (let seed = 1; seed <= runs; seed++) {
+    const options = groundTruthOptions(truth, { seed, sampler: 'independent' });
+    const images = await renderImages(device, scene, counts, options);
+    images.forEach((image, i) => (sums[i]! += relMse(image, reference.mean, reference.stats.relmse_eps)));
   }
-  return points;
+  return counts.map((samples, i) => ({ samples, error: sums[i]! / runs - reference.stats.relmse_of_reference }));
 }

@@ -1,16 +1,22 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { GROUND_TRUTH_CASES } from '../src/cases';
+import { FULL_SAMPLES, GROUND_TRUTH_CASES, type GroundTruthCase } from '../src/cases';
 import { failures } from '../src/compare';
 
 afterEach(expectNoGpuErrors);
 
+const cases: readonly GroundTruthCase[] =
+  process.env['GLANZ_FULL'] === undefined
+    ? GROUND_TRUTH_CASES
+    : GROUND_TRUTH_CASES.map((one) => ({ ...one, samples: FULL_SAMPLES * one.samples, noise: 1 }));
+
 describe('ground truth', () => {
-  it.each(GROUND_TRUTH_CASES)(
+  it.each(cases)(
     '$scene ($variant) agrees with its reference at $samples samples',
-    async ({ scene, variant, samples }) => {
+    async ({ scene, variant, samples, noise }) => {
       const { GroundTruth, renderGroundTruth } = await import('../src/index');
-      const { comparison } = await renderGroundTruth(await testDevice(), new GroundTruth(scene), { samples, variant });
+      const options = { samples, variant, noise };
+      const { comparison } = await renderGroundTruth(await testDevice(), new GroundTruth(scene), options);
       expect(failures(comparison)).toBe('');
       // SwiftShader on a slow machine takes most of a minute for the slowest of them.
     },
