@@ -1,3 +1,4 @@
+import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 import { BaseSequencer, type TestSpecification } from 'vitest/node';
 import { weslModules } from './tools/pipeline/wesl.mjs';
@@ -25,7 +26,10 @@ class LongestFirst extends BaseSequencer {
 // Packages are tested from their sources (condition "@glanz/source"), so tests need no build.
 // Forks, not threads: the software Vulkan driver must be opened on a process's main thread.
 const resolve = { conditions: ['@glanz/source', 'module', 'import', 'default'] };
-const project = (name: string, dir: string) => ({
+// Files of a project share processes, their modules, and the test device with the programs that it has compiled: to load
+// them anew for each file took as much time as all the tests that are quick. Files that replace parts of their process
+// (its output, its environment, its drivers) have one each: `isolated`.
+const project = (name: string, dir: string, { isolated = false } = {}) => ({
   plugins: [weslModules()],
   resolve,
   ssr: { resolve: { conditions: ['@glanz/source', 'node', 'module', 'import', 'default'] } },
@@ -33,6 +37,8 @@ const project = (name: string, dir: string) => ({
     name,
     root: dir,
     include: ['test/**/*.test.ts'],
+    isolate: isolated,
+    setupFiles: [fileURLToPath(new URL('tools/pipeline/test-times.ts', import.meta.url))],
     pool: 'forks' as const,
     testTimeout: 300_000,
     hookTimeout: 120_000,
@@ -60,10 +66,10 @@ export default defineConfig({
         'react',
         'three',
         'denoise-weights',
-      ].map((name) => project(name, `packages/${name}`)),
+      ].map((name) => project(name, `packages/${name}`, { isolated: ['renderer', 'cli', 'denoise'].includes(name) })),
       project('docs', 'apps/docs'),
       ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline'].map((name) =>
-        project(`tools-${name}`, `tools/${name}`),
+        project(`tools-${name}`, `tools/${name}`, { isolated: ['bench', 'pipeline'].includes(name) }),
       ),
       project('playground', 'apps/playground'),
     ],

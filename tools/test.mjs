@@ -36,8 +36,8 @@ function readReport(file) {
 /** Seconds by test file, slowest first. @type {Map<string, [file: string, seconds: number][]>} */
 const times = new Map();
 
-/** Notes the time of each file of a stage. @returns {string[][]} The slowest files, as lines of a table. */
-function noteTimes(stage, entries) {
+/** Notes the time of each file of a stage. @returns {string[]} The slowest files, as lines of a table. */
+function noteTimes(stage, entries, unit = 'seconds') {
   const byFile = new Map();
   for (const [file, ms] of entries) byFile.set(file, (byFile.get(file) ?? 0) + ms / 1000);
   const files = [...byFile]
@@ -45,10 +45,7 @@ function noteTimes(stage, entries) {
     .sort((a, b) => b[1] - a[1]);
   times.set(stage, files);
   writeFileSync(join(reports, 'times.json'), `${JSON.stringify(Object.fromEntries(times), undefined, 1)}\n`);
-  return columns(
-    [['slowest files', 'seconds'], ...files.slice(0, 12).map(([file, time]) => [file, String(time)])],
-    [1],
-  );
+  return columns([['slowest files', unit], ...files.slice(0, 12).map(([file, time]) => [file, String(time)])], [1]);
 }
 
 /** File and time of each test of Playwright's report. */
@@ -66,19 +63,22 @@ function playwrightTimes({ config, suites }) {
 
 async function unit() {
   const file = join(reports, 'vitest.json');
-  const code = await node(bin('vitest', 'vitest.mjs'), [
-    'run',
-    '--reporter=default',
-    '--reporter=json',
-    `--outputFile.json=${file}`,
-  ]);
+  const cpu = join(reports, 'unit-times.jsonl');
+  const code = await node(
+    bin('vitest', 'vitest.mjs'),
+    ['run', '--reporter=default', '--reporter=json', `--outputFile.json=${file}`],
+    { env: { GLANZ_TEST_TIMES: cpu } },
+  );
   const report = readReport(file);
   const { numPassedTests: passed = 0, numFailedTests = 0, numPendingTests: skipped = 0 } = report ?? {};
   // Errors outside of tests, and files that do not load, fail the run without failing a test.
   const failed = Math.max(numFailedTests, code === 0 ? 0 : 1, passed === 0 ? 1 : 0);
   const table = noteTimes(
     'unit',
-    (report?.testResults ?? []).map(({ name, startTime, endTime }) => [name, endTime - startTime]),
+    (existsSync(cpu) ? readFileSync(cpu, 'utf8').trim().split('\n') : [])
+      .map((line) => JSON.parse(line))
+      .map((entry) => [entry.file, entry.cpu * 1000]),
+    'CPU seconds',
   );
   return {
     passed,
