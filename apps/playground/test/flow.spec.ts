@@ -415,9 +415,9 @@ test('no accessibility faults in any panel, menu or message, light and dark, at 
     );
     if (wider > 0) faults.push(`${what}: ${wider} pixels wider than the window`);
   };
-  // With GLANZ_FULL: each size in each theme.
-  const themes = (chosen: 'light' | 'dark') =>
-    process.env['GLANZ_FULL'] !== undefined ? (['light', 'dark'] as const) : [chosen];
+  // With GLANZ_FULL each size in each theme, with every menu and every light; else these by turns, all menus on a phone.
+  const full = process.env['GLANZ_FULL'] !== undefined;
+  const themes = (chosen: 'light' | 'dark') => (full ? (['light', 'dark'] as const) : [chosen]);
   for (const [width, height, chosen] of [
     [1440, 900, 'dark'],
     [820, 1100, 'light'],
@@ -433,16 +433,21 @@ test('no accessibility faults in any panel, menu or message, light and dark, at 
         await look(at(name));
       }
       await tab(page, 'Light');
-      for (const [from, background] of [
-        ['constant', 'color'],
-        ['none', 'blurred'],
-        ['studio', 'environment'],
+      for (const [from, background, sizes] of [
+        ['constant', 'color', [1440]],
+        ['none', 'blurred', [820]],
+        ['studio', 'environment', [1440, 820]],
       ] as const) {
+        if (!full && !sizes.some((size) => size === width)) continue;
         await page.getByLabel('Light from', { exact: true }).selectOption(from);
         await page.getByLabel('Background', { exact: true }).selectOption(background);
         if (from !== 'studio') await look(at(`light from ${from}`));
       }
-      for (const menu of ['share', 'export']) {
+      for (const [menu, sizes] of [
+        ['share', [1440, 360]],
+        ['export', [820, 360]],
+      ] as const) {
+        if (!full && !sizes.some((size) => size === width)) continue;
         await page.locator(`#${menu}`).click();
         await expect(page.locator(`#${menu}-menu`)).toBeVisible();
         await look(at(menu));

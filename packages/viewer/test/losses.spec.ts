@@ -118,8 +118,10 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
   let tried = 0;
   for (const point of POINTS) {
     const calls = reference.count[point] ?? 0;
-    // The first, one in the middle, and one late.
-    for (const at of new Set([1, Math.ceil(calls / 2), Math.ceil(0.8 * calls)])) {
+    // The first, one in the middle, and one late; two of them by turns in the short run.
+    const places = [1, Math.ceil(calls / 2), Math.ceil(0.8 * calls)];
+    if (process.env['GLANZ_FULL'] === undefined) places.splice(POINTS.indexOf(point) % 3, 1);
+    for (const at of new Set(places)) {
       if (at > calls) continue;
       // Alternately as drivers do it, and by destroying the device.
       const end = await attempt({ [point]: at }, tried % 3 === 2 ? 'destroyed' : 'unknown');
@@ -134,5 +136,5 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
     }
   }
   expect(bad).toEqual([]);
-  expect(tried).toBeGreaterThan(15);
+  expect(tried).toBeGreaterThan(process.env['GLANZ_FULL'] === undefined ? 10 : 15);
 });
