@@ -27,7 +27,7 @@ class LongestFirst extends BaseSequencer {
 // Forks, not threads: the software Vulkan driver must be opened on a process's main thread.
 const resolve = { conditions: ['@glanz/source', 'module', 'import', 'default'] };
 // Files of a project share processes, their modules, and the test device with the programs that it has compiled: to load
-// them anew for each file took as much time as all the tests that are quick. Files that replace parts of their process
+// them again for each file took as much time as all the tests that are quick. Files that replace parts of their process
 // (its output, its environment, its drivers) have one each: `isolated`.
 const project = (name: string, dir: string, { isolated = false } = {}) => ({
   plugins: [weslModules()],

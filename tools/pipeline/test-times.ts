@@ -12,7 +12,7 @@ if (target) {
     const { user, system } = process.cpuUsage();
     return (user + system) / 1e6;
   };
-  // Files may share a process, and each runs this file anew.
+  // Files may share a process, and each runs this file again.
   const shared = globalThis as { glanzTestTimes?: { noted: number } };
   const noted = (shared.glanzTestTimes ??= { noted: 0 });
   const note = (cpu: number, test = '') => {

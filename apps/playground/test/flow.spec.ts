@@ -415,7 +415,7 @@ test('no accessibility faults in any panel, menu or message, light and dark, at 
     );
     if (wider > 0) faults.push(`${what}: ${wider} pixels wider than the window`);
   };
-  // With GLANZ_FULL each size in each theme, with every menu and every light; else these by turns, all menus on a phone.
+  // With GLANZ_FULL each size in each theme, with every menu and every light; else these alternately, all menus on a phone.
   const full = process.env['GLANZ_FULL'] !== undefined;
   const themes = (chosen: 'light' | 'dark') => (full ? (['light', 'dark'] as const) : [chosen]);
   for (const [width, height, chosen] of [

@@ -189,7 +189,7 @@ test('the first script is small, and controls come after the first model', async
 });
 
 /**
- * One page for all: what takes the software GPU longest is to compile for each page anew. Each test leaves the scene as
+ * One page for all: what takes the software GPU longest is to compile for each page again. Each test leaves the scene as
  * it was, up to the last ones; after a failure the next begins on a new page.
  */
 test.describe('one page', () => {

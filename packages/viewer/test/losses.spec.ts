@@ -118,7 +118,7 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
   let tried = 0;
   for (const point of POINTS) {
     const calls = reference.count[point] ?? 0;
-    // The first, one in the middle, and one late; two of them by turns in the short run.
+    // The first, one in the middle, and one late; two of them alternately in the short run.
     const places = [1, Math.ceil(calls / 2), Math.ceil(0.8 * calls)];
     if (process.env['GLANZ_FULL'] === undefined) places.splice(POINTS.indexOf(point) % 3, 1);
     for (const at of new Set(places)) {
