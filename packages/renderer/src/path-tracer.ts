@@ -30,7 +30,8 @@ import { prepareTracer, type Prepared } from './prepare';
 import { kernelFeatures } from './preparation';
 import { cameraUniforms } from './camera/camera';
 import { chooseCamera } from './camera/choose-camera';
-import type { SceneChange, SceneEditor } from './scene/scene-editor';
+import type { SceneChange } from './scene/scene-change';
+import type { SceneEditor } from './scene/scene-editor';
 import { TracerEdits } from './tracer-edits';
 import { viewFlags } from './camera/view';
 

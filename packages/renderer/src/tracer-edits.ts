@@ -1,5 +1,6 @@
 import type { Environment, Light, Material, Mesh } from '@glanz/scene';
-import type { SceneChange, SceneEditor } from './scene/scene-editor';
+import type { SceneChange } from './scene/scene-change';
+import type { SceneEditor } from './scene/scene-editor';
 
 /**
  * The edits that a `PathTracer` takes while it lives. Each changes the tracer's own scene, restarts the film and costs

@@ -302,6 +302,20 @@ export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion)
   };
 }
 
+/** Instance records up to so far apart are written at once, with those in between. */
+const JOINED_RECORDS = 8;
+
+/** Ranges of instances, from the first up to the second number, that hold those of `indices` and few others. */
+export function* instanceRanges(indices: readonly number[]): Generator<readonly [from: number, to: number]> {
+  const sorted = Uint32Array.from(indices).sort();
+  for (let i = 0; i < sorted.length;) {
+    const first = sorted[i++] as number;
+    let end = first + 1;
+    while (i < sorted.length && (sorted[i] as number) <= end + JOINED_RECORDS) end = (sorted[i++] as number) + 1;
+    yield [first, end];
+  }
+}
+
 /** Writes the records of the scene's instances from `from` up to `to`. */
 export function packInstances(
   scene: Scene,

@@ -1,6 +1,6 @@
-import { inSlices, type Environment, type Instance, type Material, type Mesh, type Scene } from '@glanz/scene';
+import type { Environment, Instance, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../integrator/pipelines';
-import { instanceStruct, materialStruct, meshStruct } from '../storage/layout';
+import { instanceStruct, meshStruct } from '../storage/layout';
 import type { ResourceName } from '../storage/resources';
 import {
   prepareEnvironment,
@@ -8,9 +8,9 @@ import {
   turnEnvironment,
   type EnvironmentData,
 } from '../environment/environment';
-import { isOneSided } from '../geometry/culling';
 import { sceneFeatures, texturePlan, type SceneChoices } from './features';
 import {
+  instanceRanges,
   joinSlices,
   packInstances,
   shapeSlices,
@@ -20,34 +20,19 @@ import {
   type PackedMesh,
 } from '../geometry/geometry';
 import { createYielder } from '../geometry/hierarchies';
-import { lightGroupTable, type LightGroupTable } from '../lights/light-groups';
-import { LightIds, lightIndex } from '../lights/light-ids';
-import {
-  buildLightTable,
-  noLights,
-  placingSteps,
-  type GatheredLights,
-  type LightGeometry,
-  type LightTable,
-} from '../lights/lights';
-import { MaterialUse } from '../materials/material-use';
-import {
-  emittedRadiance,
-  isOpaque,
-  packBindings,
-  packMaterial,
-  texturedParameters,
-  type TexturedParameterInfo,
-} from '../materials/materials';
-import { parametersOf } from '../materials/parameters';
+import type { LightGroupTable } from '../lights/light-groups';
+import type { LightIds } from '../lights/light-ids';
+import type { GatheredLights } from '../lights/lights';
 import type { NodeRange } from '../geometry/placement';
 import type { TexturePlan } from '../materials/textures';
 import type { GpuMemory } from '../storage/buffers';
-import type { EnergyTextures } from '../materials/energy-textures';
+import { uploadEnergyTextures, type EnergyTextures } from '../materials/energy-textures';
 import { fillEnvironmentTextures, makeEnvironmentTextures } from '../environment/environment-textures';
 import { inErrorScopes, withErrorScopes } from '../device/error-scopes';
 import { SceneResources, type ResourceLog } from '../storage/scene-resources';
 import { uploadTextures } from '../materials/texture-upload';
+import { GpuLights } from './gpu-lights';
+import { GpuMaterials } from './gpu-materials';
 
 /** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
 const FILL_MS = 4;
@@ -55,9 +40,6 @@ const FILL_MS = 4;
 const FILL_BYTES = 1 << 20;
 /** So much may wait for the GPU's process. */
 const QUEUE_BYTES = 2 << 20;
-
-/** Instance records up to so far apart are written at once, with those in between. */
-const JOINED_RECORDS = 8;
 
 /** An instance before and after an edit. */
 export interface InstanceChange {
@@ -79,22 +61,14 @@ export class GpuScene {
   #geometry: Geometry;
   readonly #choices: SceneChoices;
   readonly #plan: TexturePlan;
-  readonly #textured: readonly TexturedParameterInfo[];
-  readonly #bindings: ReturnType<typeof packBindings>;
-  #firstBinding: number[] = [];
   readonly #sceneTextures: readonly GPUTexture[];
   readonly #samplers: readonly GPUSampler[];
   readonly #resources: SceneResources;
   readonly #energySampler: GPUSampler;
-  /** Both are derived when they are first asked for after an edit that they depend on, and kept until the next. */
-  #use: MaterialUse | undefined;
+  readonly #materials: GpuMaterials;
+  readonly #lights: GpuLights;
+  /** Derived when they are first asked for after an edit that they depend on, and kept until the next. */
   #features: KernelFeatures | undefined;
-  #groups: LightGroupTable;
-  #lights: LightTable;
-  /** Names of the lights that hold across edits. */
-  readonly lightIds = new LightIds();
-  /** Of the scene when the lights were gathered: directional lights are weighed by it. */
-  #lightsRadius = 0;
   #environment: EnvironmentData;
 
   constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
@@ -103,16 +77,14 @@ export class GpuScene {
     this.#scene = scene;
     this.#geometry = geometry;
     this.#choices = choices;
-    this.#groups = lightGroupTable(scene, choices.lightGroups);
-    this.#textured = texturedParameters(scene.materials);
     this.#plan = texturePlan(device, scene);
     const { textures, samplers } = uploadTextures(device, memory, scene, this.#plan);
     this.#sceneTextures = textures;
     this.#samplers = samplers;
 
-    this.#bindings = packBindings(scene.materials, this.#plan);
+    this.#lights = new GpuLights(scene, choices, this.#resources);
+    this.#materials = new GpuMaterials(scene, choices, this.#plan, this.#resources, () => this.groups);
     this.#makeShapes(geometry);
-    this.#lights = noLights(scene);
     this.#environment = roughEnvironment(scene.environment);
     this.#writeInstances();
     this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
@@ -128,25 +100,31 @@ export class GpuScene {
   }
 
   get groups(): LightGroupTable {
-    return this.#groups;
+    return this.#lights.groups;
   }
 
   get lightCount(): number {
-    return this.#lights.count;
+    return this.#lights.table.count;
+  }
+
+  /** Names of the lights that hold across edits. */
+  get lightIds(): LightIds {
+    return this.#lights.ids;
   }
 
   /** The lights with a size of their own among the light records. */
   get areaLights(): { readonly first: number; readonly count: number } {
-    return { first: this.#lights.firstArea, count: this.#lights.areaCount };
+    const { firstArea, areaCount } = this.#lights.table;
+    return { first: firstArea, count: areaCount };
   }
 
   /** Probability that a light sample goes to the environment rather than to the table of lights. */
   get environmentProbability(): number {
     if (!this.#environment.table) return 0;
-    if (this.#lights.count === 0) return 1;
+    if (this.lightCount === 0) return 1;
     const { radius } = this.#geometry.placement;
     const power = this.#environment.meanLuminance * 4 * Math.PI * Math.PI * radius * radius;
-    return Math.min(0.9, Math.max(0.1, power / (power + this.#lights.power)));
+    return Math.min(0.9, Math.max(0.1, power / (power + this.#lights.table.power)));
   }
 
   /**
@@ -156,25 +134,12 @@ export class GpuScene {
    * @throws What `edit` throws, with the edit taken back.
    */
   record<T>(edit: () => T, restoreScene: () => void): ResourceLog & { readonly result: T } {
-    const [geometry, lights, lightsRadius, groups, environment, firstBinding] = [
-      this.#geometry,
-      this.#lights,
-      this.#lightsRadius,
-      this.#groups,
-      this.#environment,
-      this.#firstBinding,
-    ];
+    const [geometry, environment] = [this.#geometry, this.#environment];
+    const restore = [this.#lights.remember(), this.#materials.remember()];
     return this.#resources.record(edit, () => {
       restoreScene();
-      [this.#geometry, this.#lights, this.#lightsRadius, this.#groups, this.#environment, this.#firstBinding] = [
-        geometry,
-        lights,
-        lightsRadius,
-        groups,
-        environment,
-        firstBinding,
-      ];
-      this.#use = undefined;
+      [this.#geometry, this.#environment] = [geometry, environment];
+      for (const restoreRecords of restore) restoreRecords();
       this.#features = undefined;
       this.rewrite();
     });
@@ -183,10 +148,9 @@ export class GpuScene {
   /** Writes all records of fixed size again. */
   rewrite(): void {
     this.#writeAllNodes();
-    this.#resources.write('materials', this.#packMaterials());
-    this.#resources.write('lights', this.#lights.records);
-    this.#writeLightIndex();
-    this.#resources.write('instances', packInstances(this.#scene, this.#geometry, this.#lights.firstLight));
+    this.#materials.writeAll();
+    this.#lights.rewrite();
+    this.#writeInstances();
   }
 
   /** What decides the kernels' text. Derived once after an edit; a camera move derives nothing. */
@@ -195,11 +159,11 @@ export class GpuScene {
   }
 
   #deriveFeatures(): KernelFeatures {
-    const { count, tree, profiles, areaCount } = this.#lights;
+    const { count, tree, profiles, areaCount } = this.#lights.table;
     return sceneFeatures(this.#scene, this.#choices, {
-      textured: this.#textured,
+      textured: this.#materials.textured,
       plan: this.#plan,
-      groups: this.#groups.names.length,
+      groups: this.groups.names.length,
       lights: count > 0,
       tree,
       profiles,
@@ -208,23 +172,19 @@ export class GpuScene {
       environmentSampled: this.#environment.table !== undefined,
       vertexColors: this.#geometry.hasVertexColors,
       catchers: this.#geometry.placement.bare !== undefined,
-      isOpaque: (material) => this.#opaque(material),
-      isVisible: (material) => this.#materialUse.isVisible(material),
+      isOpaque: (material) => this.#materials.isOpaque(material),
+      isVisible: (material) => this.#materials.isVisible(material),
     });
   }
 
   /** Whether the camera looks through a material's back faces. */
   culls(material: number): boolean {
-    return (
-      this.#choices.backFaceCulling !== 'off' &&
-      isOneSided(this.#scene.materials[material] as Scene['materials'][number], this.#opaque(material))
-    );
+    return this.#materials.culls(material);
   }
 
   /** Binding of one of the resources this scene owns. */
   resource(name: string): GPUBindingResource | undefined {
-    // Made for the first kernel that asks for it, and kept up to date from then on.
-    if (name === 'light_index' && !this.#resources.buffer(name)) this.#writeLightIndex(true);
+    if (name === 'light_index') this.#lights.makeIndex();
     const buffer = this.#resources.buffer(name as ResourceName);
     if (buffer) return { buffer };
     const texture = this.#resources.texture(name as ResourceName);
@@ -243,7 +203,7 @@ export class GpuScene {
   updateMaterial(index: number, emission: boolean): boolean {
     this.#features = undefined;
     if (emission) this.#updateGroups();
-    this.#writeMaterial(index);
+    this.#materials.write(index);
     this.#writeNodes(this.#geometry.placement.takeChangedNodes());
     return emission && this.updateLights();
   }
@@ -270,7 +230,7 @@ export class GpuScene {
     this.#writeAllNodes();
     this.#updateGroups();
     // Meshes may have brought vertex colours that let light pass.
-    this.#resources.write('materials', this.#packMaterials());
+    this.#materials.writeAll();
     const replaced = this.updateLights();
     this.#writeInstances();
     return replaced;
@@ -284,28 +244,22 @@ export class GpuScene {
     const { placement } = geometry;
     this.#geometry = geometry;
     this.#writeNodes(placement.takeChangedNodes());
-    const isUseSame = this.#use
-      ? changes.map(({ before, after }) => this.#use?.replace(before, after)).every((same) => same)
-      : false;
+    const isUseSame = changes
+      .map(({ before, after }) => this.#materials.replaceUse(before, after))
+      .every((same) => same);
     if (!isUseSame || (placement.bare !== undefined) !== this.#features?.flags['CATCHER']) this.#features = undefined;
     const assigned = new Set(
       changes.flatMap(({ before, after }) =>
         before.material === after.material ? [] : [before.material, after.material],
       ),
     );
-    for (const index of assigned) this.#writeMaterial(index);
-    const emits = changes.some(({ before, after }) => this.#emits(before) || this.#emits(after));
+    for (const index of assigned) this.#materials.write(index);
+    const emits = changes.some(({ before, after }) => this.#materials.emits(before) || this.#materials.emits(after));
     if (emits) this.#updateGroups();
-    const weighs =
-      placement.radius !== this.#lightsRadius && this.#scene.lights.some(({ type }) => type === 'directional');
     const indices = changes.map(({ index }) => index);
-    if (emits || weighs) return this.updateLights(indices);
+    if (emits || this.#lights.weighs(placement.radius)) return this.updateLights(indices);
     this.#writeRecords(indices);
     return false;
-  }
-
-  #emits({ material }: Instance): boolean {
-    return emittedRadiance(parametersOf(this.#scene.materials[material] as Material)).some((c) => c > 0);
   }
 
   #writeNodes(ranges: readonly NodeRange[]): void {
@@ -347,26 +301,16 @@ export class GpuScene {
 
   #setGeometry(geometry: Geometry): void {
     this.#geometry = geometry;
-    this.#use = undefined;
+    this.#materials.forgetUse();
     this.#features = undefined;
   }
 
   /** Makes the buffers of shapes, still empty but for what belongs to materials. */
   #makeShapes({ nodeCount, triangleCount, attributeWords }: Geometry): void {
-    const { records, first, count } = this.#bindings;
-    const bindingWords =
-      records.byteLength /
-      4 /
-      Math.max(
-        1,
-        count.reduce((a, b) => a + b, 0),
-      );
-    this.#firstBinding = first.map((index) => attributeWords + index * bindingWords);
     this.#resources.make('nodes', 64 * nodeCount);
     this.#resources.make('triangles', 48 * triangleCount);
-    this.#resources.make('attributes', 4 * attributeWords + records.byteLength);
-    this.#resources.write('attributes', records, 4 * attributeWords);
-    this.#resources.upload('materials', this.#packMaterials());
+    this.#resources.make('attributes', 4 * attributeWords + this.#materials.bindingBytes);
+    this.#materials.make(attributeWords);
   }
 
   /** Writes the shapes, with the thread handed back every few milliseconds. */
@@ -406,7 +350,7 @@ export class GpuScene {
     await withErrorScopes(this.#device, 'the environment', () => {
       this.#environment = environment;
       makeEnvironmentTextures(this.#resources, this.#environment);
-      this.#uploadEnergy(energy);
+      uploadEnergyTextures(this.#device.queue, this.#resources, energy);
     });
     await yieldIfDue();
     const written: Promise<void>[] = [];
@@ -417,21 +361,12 @@ export class GpuScene {
       if (slice.done) break;
       await this.#keepUp(slice.value, yieldIfDue);
     }
-    const placed =
-      gathered &&
-      (await inSlices(
-        placingSteps(this.#scene, gathered, this.#places, this.#geometry.placement.radius, this.lightIds),
-        {
-          sliceMs: FILL_MS,
-        },
-      ));
-    this.#lightsRadius = this.#geometry.placement.radius;
-    this.#lights = placed ?? this.#buildLights();
+    await this.#lights.gather(this.#geometry, gathered, FILL_MS);
     this.#features = undefined;
-    const { records } = this.#lights;
+    const { records, count } = this.#lights.table;
     await withErrorScopes(this.#device, 'the lights of this scene', () => {
       this.#resources.make('lights', records.byteLength);
-      if (this.#lights.count > 0) this.#writeInstances();
+      if (count > 0) this.#writeInstances();
     });
     for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
       const bytes = Math.min(FILL_BYTES, records.byteLength - at);
@@ -446,12 +381,9 @@ export class GpuScene {
 
   /** Sorts the lights into groups again; where that changes anything, materials are written again. */
   #updateGroups(): boolean {
-    const before = this.#groups.names;
-    this.#groups = lightGroupTable(this.#scene, this.#choices.lightGroups);
-    if (before.length === this.#groups.names.length && before.every((name, i) => name === this.#groups.names[i]))
-      return false;
-    this.#resources.write('materials', this.#packMaterials());
-    return true;
+    const changed = this.#lights.updateGroups();
+    if (changed) this.#materials.writeAll();
+    return changed;
   }
 
   /**
@@ -460,130 +392,29 @@ export class GpuScene {
    */
   updateLights(changed: readonly number[] = []): boolean {
     this.#features = undefined;
-    const before = this.#lights;
-    this.#lights = this.#buildLights();
-    this.#lightsRadius = this.#geometry.placement.radius;
-    const { firstLight, records } = this.#lights;
+    const before = this.#lights.table;
+    this.#lights.rebuild(this.#geometry);
+    const { firstLight } = this.#lights.table;
     const indices = [...changed];
     for (let i = 0; i < firstLight.length; i++) if (firstLight[i] !== before.firstLight[i]) indices.push(i);
     this.#writeRecords(indices);
-    const moved = this.#writeLightIndex();
-    if (records.byteLength === before.records.byteLength) {
-      this.#resources.write('lights', records);
-      return moved;
-    }
-    this.#resources.upload('lights', records);
-    return true;
-  }
-
-  /**
-   * Writes the records of the lights by their ids, where a kernel has asked for them.
-   * @param asked Whether one does now.
-   * @returns Whether the buffer was replaced.
-   */
-  #writeLightIndex(asked = false): boolean {
-    const present = this.#resources.buffer('light_index');
-    if (!present && !asked) return false;
-    const needed = 4 * this.lightIds.end;
-    const grows = !present || present.size < needed;
-    // Room to grow: each new buffer is another bind group.
-    const buffer = grows ? this.#resources.make('light_index', 2 * needed) : present;
-    this.#resources.write('light_index', lightIndex(this.#lights, buffer.size / 4));
-    return grows;
+    return this.#lights.write(before);
   }
 
   /** Writes the records of all instances. Each has its own, hidden or not, so that the buffer is never replaced. */
   #writeInstances(): void {
-    const records = packInstances(this.#scene, this.#geometry, this.#lights.firstLight);
+    const records = packInstances(this.#scene, this.#geometry, this.#lights.table.firstLight);
     if (!this.#resources.buffer('instances')) this.#resources.make('instances', records.byteLength);
     this.#resources.write('instances', records);
   }
 
   /** Writes the records of some instances. */
   #writeRecords(indices: readonly number[]): void {
-    const sorted = Uint32Array.from(indices).sort();
-    for (let i = 0; i < sorted.length;) {
-      const first = sorted[i++] as number;
-      let end = first + 1;
-      while (i < sorted.length && (sorted[i] as number) <= end + JOINED_RECORDS) end = (sorted[i++] as number) + 1;
+    for (const [first, end] of instanceRanges(indices))
       this.#resources.write(
         'instances',
-        packInstances(this.#scene, this.#geometry, this.#lights.firstLight, first, end),
+        packInstances(this.#scene, this.#geometry, this.#lights.table.firstLight, first, end),
         first * instanceStruct.size,
       );
-    }
-  }
-
-  #writeMaterial(index: number): void {
-    const record = materialStruct.allocate();
-    this.#packMaterial(record, 0, index);
-    this.#resources.write('materials', record, index * materialStruct.size);
-  }
-
-  get #materialUse(): MaterialUse {
-    return (this.#use ??= new MaterialUse(this.#scene));
-  }
-
-  #opaque(material: number): boolean {
-    return isOpaque(
-      this.#scene.materials[material] as Scene['materials'][number],
-      this.#materialUse.hasVertexAlpha(material),
-    );
-  }
-
-  #packMaterial(buffer: ArrayBuffer, at: number, index: number): void {
-    const material = this.#scene.materials[index] as Scene['materials'][number];
-    packMaterial(
-      buffer,
-      at,
-      material,
-      this.#firstBinding[index] as number,
-      this.#bindings.count[index] as number,
-      this.#opaque(index),
-      this.culls(index),
-      this.#groups.material(material),
-    );
-  }
-
-  #packMaterials(): ArrayBuffer {
-    const buffer = materialStruct.allocate(this.#scene.materials.length);
-    this.#scene.materials.forEach((_, index) => this.#packMaterial(buffer, index, index));
-    return buffer;
-  }
-
-  /** Where shapes are, as lights name them. */
-  get #places(): LightGeometry {
-    const leaves = new Map<number, Uint32Array>();
-    const leafTriangles = (mesh: number): Uint32Array => {
-      let order = leaves.get(mesh);
-      if (!order) {
-        order = new Uint32Array((this.#scene.meshes[mesh] as Mesh).indices.length / 3);
-        const { firstTriangle } = this.#geometry.regions[mesh] as MeshRegion;
-        const inputs = this.#geometry.blas[mesh]?.triangleIndices ?? new Uint32Array();
-        for (let leaf = 0; leaf < inputs.length; leaf++) order[inputs[leaf] as number] = firstTriangle + leaf;
-        leaves.set(mesh, order);
-      }
-      return order;
-    };
-    return { instanceSlots: this.#geometry.placement.instanceSlots, leafTriangles };
-  }
-
-  #buildLights(): LightTable {
-    return buildLightTable(
-      this.#scene,
-      this.#places,
-      this.#geometry.placement.radius,
-      this.#groups,
-      this.#choices.lightSampling,
-      this.lightIds,
-    );
-  }
-
-  #uploadEnergy(energy: EnergyTextures): void {
-    for (const name of ['energy_dielectric', 'energy_conductor'] as const) {
-      const { size, dimension, data } = energy[name];
-      const texture = this.#resources.makeTexture(name, { size, dimension, format: 'r16float' }, data.byteLength);
-      this.#device.queue.writeTexture({ texture }, data, { bytesPerRow: size[0] * 2, rowsPerImage: size[1] }, size);
-    }
   }
 }

@@ -1,9 +1,7 @@
 import type { Blas } from '@glanz/bvh';
 import {
   createScene,
-  inSlices,
   validateScene,
-  validationSteps,
   type Environment,
   type Instance,
   type Light,
@@ -12,10 +10,10 @@ import {
   type Scene,
 } from '@glanz/scene';
 import { RenderError } from '../errors';
-import type { EditEffect, Move } from '../film/edit-effect';
+import { EnvironmentEditor, type EnvironmentAdjustment } from './environment-editor';
 import type { GpuScene } from './gpu-scene';
+import type { SceneChange } from './scene-change';
 import { checkParameters } from '../materials/check-parameters';
-import { environmentSteps, hasSameTexels, type EnvironmentData } from '../environment/environment';
 import {
   attributeWords,
   layOutGeometry,
@@ -39,22 +37,6 @@ export function ownScene(scene: Scene): Scene {
     instances: scene.instances.map((instance) => ({ ...instance })),
     lights: scene.lights.map((light) => ({ ...light })),
   };
-}
-
-/** A change of the scene that is ready to be made: what takes time has been done, and nothing has been changed yet. */
-export interface SceneChange {
-  /** Whether another change has been made since, which this one does not take into account. */
-  readonly isStale: () => boolean;
-  /** Makes it, in the scene and on the GPU. @returns Whether buffers or textures were replaced. */
-  readonly apply: () => boolean;
-  /** Takes the scene back to what it was before. */
-  readonly undo: () => void;
-  /** What it does to the film's samples; default `invalidates`. */
-  readonly effect?: EditEffect;
-  /** The instances that it moves. */
-  readonly moves?: readonly Move[];
-  /** Writes shapes to the GPU again that it has overwritten, once everything else has been taken back. */
-  readonly rewrite?: () => void;
 }
 
 /** Names listed in an error message, at most. */
@@ -85,14 +67,14 @@ export class SceneEditor {
   #named: Map<string, number[]> | undefined;
   #geometry: Geometry;
   #version = 0;
-  /** Settles when the edits of the environment so far are prepared. */
-  #lighting: Promise<void> | undefined;
+  readonly #environment: EnvironmentEditor;
 
   constructor(scene: Scene, geometry: Geometry, gpu: GpuScene, hierarchies: HierarchyBuilder | undefined) {
     this.scene = scene;
     this.#geometry = geometry;
     this.#gpu = gpu;
     this.#hierarchies = hierarchies;
+    this.#environment = new EnvironmentEditor(scene, gpu);
     this.#plain = scene.instances.map(({ material }) => material);
     this.#remember(scene, geometry.blas);
   }
@@ -157,90 +139,11 @@ export class SceneEditor {
   }
 
   setEnvironment(environment: Environment | undefined): SceneChange | Promise<SceneChange> {
-    return this.#afterImages(() => {
-      // Texels that are on the GPU have been validated: of an image at another rotation only the numbers beside it are,
-      // with a black texel.
-      if (environment?.type === 'latlong' && !hasSameTexels(this.#gpu.environment, environment))
-        return this.#prepareImage(environment);
-      const checked =
-        environment?.type === 'latlong'
-          ? { ...environment, width: 1, height: 1, data: new Float32Array(3) }
-          : environment;
-      if (checked) validateScene({ ...createScene(), environment: checked });
-      return this.#changeEnvironment(environment);
-    });
+    return this.#environment.set(environment);
   }
 
-  adjustEnvironment(change: {
-    readonly rotation?: number;
-    readonly intensity?: number;
-    readonly visible?: boolean;
-  }): SceneChange | Promise<SceneChange> {
-    for (const name of ['rotation', 'intensity'] as const) {
-      const value = change[name];
-      if (value !== undefined && !Number.isFinite(value))
-        throw new RenderError(
-          'renderer/environment',
-          `The environment's ${name} must be finite, not ${String(value)}.`,
-        );
-    }
-    if (change.intensity !== undefined && change.intensity < 0)
-      throw new RenderError(
-        'renderer/environment',
-        `The environment's intensity must be at least 0, not ${change.intensity}.`,
-      );
-    return this.#afterImages(() => {
-      const { environment } = this.scene;
-      if (!environment)
-        throw new RenderError(
-          'renderer/environment',
-          'The scene has no environment to change; set one with setEnvironment().',
-        );
-      if (environment.type === 'constant' && change.intensity !== undefined)
-        throw new RenderError(
-          'renderer/environment',
-          'A constant environment has no intensity; set another radiance with setEnvironment().',
-        );
-      const { visible = environment.visible ?? true } = change;
-      // The pixels were validated when they were set.
-      return this.#changeEnvironment(
-        environment.type === 'latlong' ? { ...environment, ...change, visible } : { ...environment, visible },
-      );
-    });
-  }
-
-  /** At once, or after the images that are being prepared, so that edits of the environment stay in their order. */
-  #afterImages(prepare: () => SceneChange | Promise<SceneChange>): SceneChange | Promise<SceneChange> {
-    const change = this.#lighting ? this.#lighting.then(prepare) : prepare();
-    if (change instanceof Promise) {
-      const settle = () => {
-        if (this.#lighting === lighting) this.#lighting = undefined;
-      };
-      const lighting: Promise<void> = (this.#lighting = change.then(settle, settle));
-    }
-    return change;
-  }
-
-  /** Validates an image and computes what the GPU needs of it, a slice at a time. */
-  async #prepareImage(environment: Environment): Promise<SceneChange> {
-    await inSlices(validationSteps({ ...createScene(), environment }));
-    return this.#changeEnvironment(environment, await inSlices(environmentSteps(environment)));
-  }
-
-  #changeEnvironment(environment: Environment | undefined, prepared?: EnvironmentData): SceneChange {
-    const before = this.scene.environment;
-    const set = (value: Environment | undefined) => {
-      if (value) this.scene.environment = value;
-      else delete this.scene.environment;
-    };
-    return {
-      isStale: () => this.scene.environment !== before,
-      apply: () => {
-        set(environment);
-        return this.#gpu.updateEnvironment(environment, prepared);
-      },
-      undo: () => set(before),
-    };
+  adjustEnvironment(change: EnvironmentAdjustment): SceneChange | Promise<SceneChange> {
+    return this.#environment.adjust(change);
   }
 
   setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): SceneChange | Promise<SceneChange> {

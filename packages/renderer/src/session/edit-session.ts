@@ -8,7 +8,7 @@ import type { GpuScene } from '../scene/gpu-scene';
 import type { KernelCache, KernelSet } from '../integrator/kernel-cache';
 import type { Integrator } from '../integrator/integrator';
 import { serves, type KernelFeatures } from '../integrator/pipelines';
-import type { SceneChange } from '../scene/scene-editor';
+import type { SceneChange } from '../scene/scene-change';
 
 /** What an {@link EditSession} works on. */
 export interface EditHost {
