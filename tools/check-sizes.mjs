@@ -22,8 +22,9 @@ const BUDGETS = [
   { specifier: '@glanz/tonemap', limit: 5 },
   // Weights are not in it.
   { specifier: '@glanz/denoise', limit: 20 },
-  // 92 before edits could be taken back, films saved and resumed, and hierarchies over instances changed in place.
-  { specifier: '@glanz/renderer', limit: 107, withDependencies: true },
+  // 92 before edits could be taken back, films saved and resumed, and hierarchies over instances changed in place; 107
+  // before paths wrote AOVs and motion, a history told edits apart, and lights had ids.
+  { specifier: '@glanz/renderer', limit: 113, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
   // 14 before it kept samples through the loss of a GPU and checked all that it is given.
   { specifier: '@glanz/viewer', limit: 18 },
@@ -32,7 +33,7 @@ const BUDGETS = [
 ];
 
 /** Files that pages take as they are: kB, gzipped. */
-const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 215 }];
+const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 219 }];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 
