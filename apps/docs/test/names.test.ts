@@ -116,7 +116,7 @@ test('the page of render options lists every row of the table, with its names on
     expect(row.doc.length, row.name).toBeGreaterThan(20);
     expect(`${row.type}${row.values}${row.default}`, row.name).not.toMatch(/undefined|\[object|NaN/);
   }
-  expect(listed.filter(({ flag }) => flag === '').map(({ name }) => name)).toEqual(['maxSubmitMs']);
+  expect(listed.filter(({ flag }) => flag === '').map(({ name }) => name)).toEqual(['maxSubmitMs', 'aovs']);
   expect(listed.filter(({ attribute }) => attribute !== '').map(({ attribute }) => attribute)).toEqual(
     Object.keys(ATTRIBUTES).filter((name) => Object.hasOwn(RENDER_OPTIONS, camel(name))),
   );
