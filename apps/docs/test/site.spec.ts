@@ -159,8 +159,7 @@ test('the home page fetches at most 150 kB of script before the demo is asked fo
   for (const [path, most] of [
     ['/', 150_000],
     ['/openpbr/coat', 180_000],
-    // Fetches the page of errors ahead, which grows with each package's codes.
-    ['/guide/getting-started', 184_000],
+    ['/guide/getting-started', 180_000],
   ] as const) {
     const scripts = new Set<string>();
     const hear = (request: { url(): string }) =>

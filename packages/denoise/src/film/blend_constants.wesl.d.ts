@@ -6,7 +6,7 @@ export const BLEND_TILE: number;
 export const BLEND_VISIBLE: number;
 /** Relative noise below which the film is shown as it is, bit for bit: less than a step of an 8-bit image. */
 export const BLEND_CONVERGED: number;
-/** A pixel that differs by more than so many standard deviations of its surroundings is noise itself. */
+/** A pixel further from the mean of its neighbours than this many standard deviations is treated as noise. */
 export const BLEND_OUTLIER: number;
 
 declare const module: WgslModule;
