@@ -24,10 +24,11 @@ export interface RenderTimings {
 /** An image that has been written. */
 export interface RenderedShot {
   readonly files: readonly WrittenFile[];
+  /** Paths per pixel in the image. */
   readonly samples: number;
   /** Samples that a checkpoint brought along. */
   readonly resumedSamples: number;
-  /** How often the GPU was lost, and its work continued on a new device. */
+  /** How often the GPU was lost, and its work continued on a new device; the pixels do not depend on that. */
   readonly gpuLosses: number;
   /** Relative error of the image when it was last looked at; only with `--noise`. */
   readonly noise?: number;
@@ -43,37 +44,19 @@ export interface RenderedShot {
 }
 
 /** What `--json` prints for one image. */
-export interface RenderResult {
+export interface RenderResult extends RenderedShot {
   readonly ok: true;
   readonly version: string;
   readonly model: string;
-  readonly files: readonly WrittenFile[];
   readonly width: number;
   readonly height: number;
-  /** Paths per pixel in the image. */
-  readonly samples: number;
   readonly targetSamples: number;
-  /** Those of them that a checkpoint brought along. */
-  readonly resumedSamples: number;
-  /** How often the GPU was lost while it was made; its pixels do not depend on that. */
-  readonly gpuLosses: number;
-  /** Relative error of the image when it was last looked at; only with `--noise`. */
-  readonly noise?: number;
-  /** How the image was denoised; absent: not at all. */
-  readonly denoised?: string;
-  readonly samplesPerSecond: number;
   /** The signal that ended it early, if one did. */
   readonly interrupted: Interrupt | null;
   readonly depth: number;
   readonly seed: number;
   readonly variant?: string;
   readonly view?: string;
-  readonly camera: string;
-  readonly environment: string;
-  readonly adapter: { readonly name: string; readonly software: boolean };
-  readonly timings: RenderTimings;
-  readonly statistics: RenderStatistics;
-  readonly warnings: readonly string[];
 }
 
 /** An image that could not be made. */
