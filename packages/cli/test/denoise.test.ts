@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
 import { parseCommand } from '../src/command';
-import { run, temporaryFolder } from './fakes';
+import { fakeIo, run, temporaryFolder } from './fakes';
 
 const render = async (...args: string[]) => {
   const cwd = temporaryFolder({ 'a.glb': '' });
@@ -44,6 +44,29 @@ describe('--denoise', () => {
     const plain = await render('-o', 'a.png', '-o', 'a.hdr');
     expect(file('a.hdr')).not.toEqual(plain.file('a.hdr'));
     expect(text(plain.file('a.png'))).not.toContain('Denoised');
+  });
+
+  it('ends at the first interrupt: the film is written as it is, which the message and the result say', async () => {
+    const args = ['render', 'a.glb', '--size', '4x3', '--samples', '2', '--denoise', 'fast', '--json', '-o', 'a.hdr'];
+    const cwd = temporaryFolder({ 'a.glb': '' });
+    const io = fakeIo(cwd);
+    const { code, out, err } = await run(args, cwd, { onDenoise: () => io.interrupt() }, io);
+    expect(code).toBe(130);
+    expect(err).toContain('stopped while it was denoised');
+    expect(JSON.parse(out)).toMatchObject({ ok: true, samples: 2, interrupted: 'SIGINT' });
+    expect(JSON.parse(out)).not.toHaveProperty('denoised');
+    const plain = await render('-o', 'a.hdr');
+    expect(new Uint8Array(readFileSync(join(cwd, 'a.hdr')))).toEqual(plain.file('a.hdr'));
+  });
+
+  it('still denoises samples that an interrupt has ended', async () => {
+    const cwd = temporaryFolder({ 'a.glb': '' });
+    const io = fakeIo(cwd);
+    const fake = { slowly: true, onSample: (sample: number) => void (sample === 2 && io.interrupt()) };
+    const args = ['render', 'a.glb', '--size', '4x3', '--samples', '9', '--denoise', 'fast', '--json', '-o', 'a.hdr'];
+    const { code, out } = await run(args, cwd, fake, io);
+    expect(code).toBe(130);
+    expect(JSON.parse(out)).toMatchObject({ interrupted: 'SIGINT', denoised: 'fast' });
   });
 
   it('is in the result', async () => {

@@ -110,6 +110,8 @@ export interface FakeOptions {
   readonly onSample?: (sample: number, device: FakeDevice) => void;
   /** Called before a layer is read. */
   readonly onRead?: (layer: string, device: FakeDevice) => void;
+  /** Called when an image is to be denoised. */
+  readonly onDenoise?: () => void;
   /** Called when a film is copied. */
   readonly onSave?: () => void;
   /** Called before an edit. */
@@ -219,7 +221,9 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
       listGpus: fake.listGpus ?? (async () => FAKE_GPUS),
       createTracer,
       createDenoiser: async (_device, quality) => ({
-        async denoise(tracer) {
+        async denoise(tracer, signal) {
+          fake.onDenoise?.();
+          signal.throwIfAborted();
           const beauty = (await (tracer as Tracer).read('beauty')) as Float32Array;
           return beauty.map((value, i) => (i % 4 === 3 ? value : quality === 'fast' ? 0.5 : 0.125));
         },

@@ -127,12 +127,7 @@ export class GpuWorker {
         progress.line(`${file.path}: ${samples} samples; the same command continues from there`);
     }
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
-    const { denoise: quality } = options;
-    if (quality) progress.stage('denoise');
-    // After Ctrl-C too: what there is is what was asked for.
-    const denoised = await timed('denoiseMs', async () =>
-      denoiser && quality ? { data: await denoiser.denoise(tracer, new AbortController().signal), quality } : undefined,
-    );
+    const denoised = await timed('denoiseMs', () => this.#denoised(denoiser, tracer, shot));
     progress.stage('write');
     const image = await timed('readMs', () => readImage(tracer, options, samples, denoised));
     const film = shot.outputs.some(({ format }) => format === 'film')
@@ -159,7 +154,7 @@ export class GpuWorker {
     const gpuLosses = this.#gpu.losses - making.lossesBefore;
     const names = files.map(({ path }) => path).join(', ');
     progress.line(
-      `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && settings.noise === undefined ? ` of ${settings.samples}` : ''} ${settings.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${quality ? `denoised (${quality}), ` : ''}${duration(timings.totalMs)} in all`,
+      `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && settings.noise === undefined ? ` of ${settings.samples}` : ''} ${settings.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${denoised ? `denoised (${denoised.quality}), ` : ''}${duration(timings.totalMs)} in all`,
     );
     if (statistics.badSamples > 0)
       progress.warning(
@@ -172,7 +167,7 @@ export class GpuWorker {
       resumedSamples: resumed,
       gpuLosses,
       ...(noise === undefined ? {} : { noise }),
-      ...(quality === undefined ? {} : { denoised: quality }),
+      ...(denoised ? { denoised: denoised.quality } : {}),
       samplesPerSecond,
       camera: camera.name || camera.type,
       environment,
@@ -333,6 +328,29 @@ export class GpuWorker {
     if (options.samplesFrom > 0) this.#tracer.reset({ firstSample: options.samplesFrom });
     if (variant !== undefined) await this.#tracer.setVariant(variant);
     return this.#tracer;
+  }
+
+  /**
+   * The denoised image, also of samples that Ctrl-C has ended; undefined if none is asked for, or if Ctrl-C ends the
+   * denoising.
+   */
+  async #denoised(
+    denoiser: ImageDenoiser | undefined,
+    tracer: Tracer,
+    shot: Shot,
+  ): Promise<{ readonly data: Float32Array; readonly quality: DenoiseQuality } | undefined> {
+    const { denoise: quality } = shot.options;
+    if (!denoiser || !quality) return undefined;
+    const { progress, signal } = this.#context;
+    progress.stage('denoise');
+    const stop = signal.aborted ? new AbortController().signal : signal;
+    try {
+      return { data: await denoiser.denoise(tracer, stop), quality };
+    } catch (error) {
+      if (!stop.aborted || error !== stop.reason) throw error;
+      progress.warning(`${shotLabel(shot)}: stopped while it was denoised; it is written with its noise.`);
+      return undefined;
+    }
   }
 
   /** The denoiser that the image asks for, kept for the next one. */
