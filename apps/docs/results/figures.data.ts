@@ -46,7 +46,6 @@ const FILES = [
   'film-faults',
   'openpbr-cost',
   'faults-tracer',
-  'faults-tracer-h200',
   'faults-viewer',
   'faults-cli',
   'soak',
