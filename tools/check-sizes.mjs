@@ -23,7 +23,7 @@ const BUDGETS = [
   // Weights are not in it.
   { specifier: '@glanz/denoise', limit: 20 },
   // 92 before edits could be taken back, films saved and resumed, and hierarchies over instances changed in place; 107
-  // before paths wrote AOVs and motion, a history told edits apart, and lights had ids.
+  // before paths wrote AOVs and motion, edits were classified, and lights had ids.
   { specifier: '@glanz/renderer', limit: 113, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
   // 14 before it kept samples through the loss of a GPU and checked all that it is given.

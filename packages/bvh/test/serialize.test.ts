@@ -28,7 +28,7 @@ test('what comes back is what was put in, alone and together', () => {
   expect(closestHit(back, meshes[0]!, { origin: [3, 0.1, 0.2], direction: [-1, 0, 0] })).toEqual(
     closestHit(trees[0]!, meshes[0]!, { origin: [3, 0.1, 0.2], direction: [-1, 0, 0] }),
   );
-  // Arrays of its own: each can be handed to a worker.
+  // Arrays of its own: each can be transferred to a worker.
   expect(back.nodes.buffer.byteLength).toBe(back.nodes.byteLength);
 });
 

@@ -84,7 +84,7 @@ describe('images larger than bindings and memory', () => {
   it('are computed in smaller tiles where the GPU has less memory than allowed', async () => {
     const create = device.createBuffer;
     device.pushErrorScope('validation');
-    // What is refused is told by the error scope for memory: a buffer that no GPU has room for.
+    // The error scope for memory reports a buffer that no GPU has room for.
     const push = device.pushErrorScope.bind(device);
     const pop = device.popErrorScope.bind(device);
     let refused = 0;

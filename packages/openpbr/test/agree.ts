@@ -113,7 +113,7 @@ export function expectTwins(
     // Near the critical angle shares change fast with the last digits too; a film's part is a factor on 1 less a share.
     const energies = (from: OpenPbrVector, media: OpenPbrVector): number[] => {
       const { transmission, diffuseScale } = seen(from, media);
-      return [...transmission.albedo, ...transmission.mirrorAlbedo, diffuseScale];
+      return [...transmission.albedo, ...transmission.reflectionAlbedo, diffuseScale];
     };
     const share = (): number => SHARE * Math.max(1, ...b.filmPass) + Math.max(...resolution(energies, wo, indices));
     const spread = (w: OpenPbrVector): number => (share() * Math.abs(w[2])) / Math.PI;

@@ -130,7 +130,7 @@ describe('WGSL against its CPU twin', () => {
   /**
    * From either side, of indices down to 1, to where facets refract, or anywhere below.
    *
-   * @param isFar No index near that of what is outside, for which the shader must be told of both.
+   * @param isFar No index near that of what is outside, for which the shader needs both.
    */
   const through = (
     count: number,

@@ -100,7 +100,7 @@ describe('values', () => {
     ).toBeCloseTo(1.083259, 5);
   });
 
-  it('an unknown colour space is told of', () => {
+  it('an unknown colour space is reported', () => {
     const { parameters, warnings } = only(
       wrap('<input name="base_color" type="color3" value="1, 0.5, 0" colorspace="my_space" />'),
     );

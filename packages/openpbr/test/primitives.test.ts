@@ -3,7 +3,7 @@ import {
   dielectricEpsilon,
   energyBounce,
   energyLost,
-  energyShare,
+  energyAlbedo,
   energyTotalLost,
   eon,
   fresnelDielectric,
@@ -111,14 +111,14 @@ describe('primitives against independent numbers', () => {
     for (const row of primitives()['ggx_directional_albedo'] as unknown as Row[]) {
       near(1 - energyLost(row.r, row.mu), row.E_F1_correlated, 1e-3);
       near(
-        energyShare(0.2, row.r, row.mu) - energyTotalLost(0.2, row.r, row.mu) * fresnelMean(0.2),
+        energyAlbedo(0.2, row.r, row.mu) - energyTotalLost(0.2, row.r, row.mu) * fresnelMean(0.2),
         row['eta1.5'].R_corr,
         0,
         2.5e-3,
       );
       // Below the critical angle the share jumps within a few cells of the table.
       near(
-        energyShare(-0.2, row.r, row.mu) - energyTotalLost(-0.2, row.r, row.mu) * energyBounce(-0.2, row.r),
+        energyAlbedo(-0.2, row.r, row.mu) - energyTotalLost(-0.2, row.r, row.mu) * energyBounce(-0.2, row.r),
         row['eta0.6667'].R_corr,
         0,
         2e-2,
@@ -131,7 +131,7 @@ describe('limits', () => {
   it('has no interface at index 1', () => {
     expect(fresnelDielectric(1, 0.3)).toBe(0);
     expect(dielectricEpsilon(1.5, 0)).toBe(0);
-    expect(energyShare(0, 0.5, 0.5)).toBe(0);
+    expect(energyAlbedo(0, 0.5, 0.5)).toBe(0);
   });
   it('reflects everything at grazing and beyond the critical angle', () => {
     expect(fresnelDielectric(1.5, 0)).toBeCloseTo(1, 12);

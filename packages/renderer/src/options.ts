@@ -120,7 +120,7 @@ export interface PathTracerOptions {
   /**
    * Builds the hierarchies of the meshes, e.g. `await BvhWorkers.create()` of `@glanz/bvh/workers`: on other threads,
    * several at a time; or a `BlasCache` of `@glanz/bvh/cache` around it, which reads what was built before. It stays
-   * the caller's to destroy. Default: built on this thread, which is handed back between meshes.
+   * the caller's to destroy. Default: built on this thread, which yields to the event loop between meshes.
    */
   readonly hierarchies?: HierarchyBuilder;
   readonly signal?: AbortSignal;

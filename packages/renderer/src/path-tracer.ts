@@ -56,7 +56,7 @@ export class PathTracer extends TracerEdits {
   readonly #ignoreLoss: () => void;
   #options: TracerSettings;
   #camera: Camera;
-  /** What the kernels in use can show; the camera above, but for the time that its kernels take. */
+  /** The camera that the present kernels show: differs from #camera while kernels for it compile. */
   #shownCamera: Camera;
   #destroyed = false;
   #failure: DeviceError | undefined;

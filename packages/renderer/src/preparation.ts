@@ -260,17 +260,17 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
       // The driver goes on compiling after an abort, for a later tracer.
       place: 'elsewhere',
       async run({ features, integrator }, { signal }) {
-        const rehearsals: Promise<void>[] = [];
+        const prewarmed: Promise<void>[] = [];
         const onKernel = (done: number, name?: KernelName, kernel?: Kernel) => {
           if (signal.aborted || outer?.aborted) return;
           onProgress?.({ stage: 'compile', done });
           if (!name || !kernel) return;
-          const rehearsal = withErrorScopes(device, `the kernel "${name}"`, () => integrator.rehearse(name, kernel));
-          rehearsal.catch(() => {});
-          rehearsals.push(rehearsal);
+          const prewarm = withErrorScopes(device, `the kernel "${name}"`, () => integrator.prewarm(name, kernel));
+          prewarm.catch(() => {});
+          prewarmed.push(prewarm);
         };
         integrator.begin(await cache.get(features, onKernel));
-        await Promise.all(rehearsals);
+        await Promise.all(prewarmed);
       },
     }),
   ];

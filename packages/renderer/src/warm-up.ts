@@ -56,19 +56,16 @@ function smallScene(): Scene {
 }
 
 /**
- * Does what the first scene on a page or in a process takes time for and no later one does, while there is nothing to render
- * yet: a model is loading, say. Prepares a small scene of its own and adds a sample to it, so that the JavaScript
- * engine has compiled what goes over vertices and lights, and the device the kernels that most scenes share. What it
- * makes it frees again.
+ * Does the work in advance that only the first scene on a page or in a process needs, for example while a model loads.
+ * It prepares a small scene and renders a sample, so that the JavaScript engine has compiled the code for meshes and
+ * lights, and the device the kernels that most scenes share. Then it frees everything.
  *
- * It takes as much of the thread as it saves, in slices of a few milliseconds; with `hierarchies` it warms up the way
- * through the workers. Not worth it on a GPU that the CPU imitates, where the kernels take the time of what they
- * prepare.
+ * It takes as much time of the thread as it saves, in slices of a few milliseconds; with `hierarchies` it warms up the
+ * workers too. Not worth it on a software adapter, whose kernels are as slow as the work that they prepare.
  *
  * @param device The one that tracers will be made on.
- * @param options `signal` ends it where it stands: give it up when the model is there.
- * @returns When it is done or has been given up. Never rejects: what is wrong with the device, `PathTracer.create`
- * says.
+ * @param options `signal` ends it at once: abort it when the model is there.
+ * @returns When it is done or was aborted. Never rejects: `PathTracer.create` reports what is wrong with the device.
  * @example
  * const device = await requestDevice();
  * const warm = warmUp(device, { hierarchies });
@@ -77,8 +74,8 @@ function smallScene(): Scene {
  * const tracer = await PathTracer.create(device, scene, { width, height, hierarchies });
  */
 export async function warmUp(device: GPUDevice, options: WarmUpOptions = {}): Promise<void> {
-  // Engines compile what goes over typed arrays for as long as no buffer has been detached, and throw it all away when
-  // the first one is, as those are that go to workers or come from the GPU. Thus one is now.
+  // JavaScript engines discard compiled code for typed arrays when the first buffer is detached, as transfers to workers
+  // and reads from the GPU do. So one is detached before anything is compiled.
   const gone = new ArrayBuffer(8);
   structuredClone(gone, { transfer: [gone] });
   try {

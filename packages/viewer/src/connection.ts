@@ -3,7 +3,7 @@ import type { ToneMapOptions } from '@glanz/tonemap';
 import { Display } from './display';
 import { isAbort } from './aborts';
 import { destroyed, ViewerError } from './errors';
-import { Losses } from './losses';
+import { DeviceLossPolicy } from './device-loss-policy';
 
 /** What a connection reports to its engine. */
 export interface ConnectionEvents {
@@ -34,7 +34,7 @@ export class Connection {
   readonly #canvas: HTMLCanvasElement;
   readonly #events: ConnectionEvents;
   readonly #request: () => Promise<GPUDevice>;
-  readonly #losses = new Losses();
+  readonly #lossPolicy = new DeviceLossPolicy();
   #view: ToneMapOptions;
   #ready: Promise<void>;
   #device: GPUDevice | undefined;
@@ -91,7 +91,7 @@ export class Connection {
       await this.#recovery;
     }
     if (!this.#connecting) {
-      this.#losses.forgive();
+      this.#lossPolicy.reset();
       this.#ready = this.#begin();
     }
     await this.#connecting;
@@ -120,9 +120,9 @@ export class Connection {
     }
   }
 
-  /** Forgives former losses and, where there is no device, asks for one. @returns Whether one is asked for. */
+  /** Forgets former losses and, where there is no device, asks for one. @returns Whether one is asked for. */
   retry(): boolean {
-    this.#losses.forgive();
+    this.#lossPolicy.reset();
     if (this.#device || this.#destroyed) return false;
     if (!this.#recovery && !this.#connecting) this.#recover('retry');
     return true;
@@ -211,7 +211,7 @@ export class Connection {
       this.#display = undefined;
       this.#events.recovering();
       // A device that the page destroyed does not come back by waiting.
-      if (reason !== 'retry') await this.#losses.next();
+      if (reason !== 'retry') await this.#lossPolicy.next();
       await this.#reconnect();
       this.#recovery = undefined;
       await this.#events.back();

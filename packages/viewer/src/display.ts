@@ -163,13 +163,13 @@ export class Display {
    * Shows an image.
    *
    * @param canvasSize Pixels of the canvas.
-   * @param share Of the kept preview in it, 0..1.
+   * @param weight Of the kept preview in it, 0..1.
    */
-  draw(film: GpuImage, canvasSize: readonly [number, number], share: number): void {
+  draw(film: GpuImage, canvasSize: readonly [number, number], weight: number): void {
     // Only now, since a change of size wipes the canvas.
     const size = this.resize(canvasSize);
     const encoder = this.#device.createCommandEncoder({ label: 'glanz viewer' });
-    const source = this.#small && share > 0 ? this.#mix(encoder, film, this.#small, share) : film.buffer;
+    const source = this.#small && weight > 0 ? this.#mix(encoder, film, this.#small, weight) : film.buffer;
     this.#pass.draw(encoder, source, film.size, this.#context.getCurrentTexture().createView(), size);
     this.#device.queue.submit([encoder.finish()]);
   }
@@ -181,11 +181,15 @@ export class Display {
     this.#context.unconfigure();
   }
 
-  #mix(encoder: GPUCommandEncoder, film: GpuImage, small: Preview, share: number): GPUBuffer {
+  #mix(encoder: GPUCommandEncoder, film: GpuImage, small: Preview, weight: number): GPUBuffer {
     const [width, height] = film.size;
     const { mixed } = small;
     if (mixed.size !== width * height * 16) return film.buffer;
-    this.#device.queue.writeBuffer(this.#uniforms, 0, new Float32Array([width, height, ...small.size, share, 0, 0, 0]));
+    this.#device.queue.writeBuffer(
+      this.#uniforms,
+      0,
+      new Float32Array([width, height, ...small.size, weight, 0, 0, 0]),
+    );
     const buffers = [this.#uniforms, film.buffer, small.buffer, mixed];
     const group = this.#device.createBindGroup({
       label: 'glanz viewer blend',

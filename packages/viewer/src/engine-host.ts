@@ -56,7 +56,7 @@ export interface EngineSettings extends ToneMapOptions {
   readonly settleMs: number;
   /** Maximum number of edges of a path in previews that are smaller than the image. */
   readonly previewDepth: number;
-  /** More for the path tracers; those of a {@link Take} go over them. */
+  /** More options for the path tracers; those of a {@link TracerSpec} take precedence. */
   readonly tracer: Partial<PathTracerOptions>;
   /** Default: `requestDevice()` of the renderer. */
   readonly requestDevice: (() => Promise<GPUDevice>) | undefined;
@@ -70,7 +70,7 @@ export interface EngineSettings extends ToneMapOptions {
 }
 
 /** What a path tracer is made from. */
-export interface Take {
+export interface TracerSpec {
   readonly scene: Scene;
   readonly camera: Camera;
   readonly options?: Partial<PathTracerOptions>;
@@ -84,5 +84,5 @@ export interface TracerCopy {
   readonly create: (
     options: Pick<PathTracerOptions, 'width' | 'height' | 'background' | 'signal'>,
   ) => Promise<PathTracer>;
-  readonly ready: Take['ready'] | undefined;
+  readonly ready: TracerSpec['ready'] | undefined;
 }

@@ -2,7 +2,7 @@ import { compressedFormats, PathTracer, type PathTracerOptions, type PrepareProg
 import { untilAborted, type CompressedFormat } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMapOptions } from '@glanz/tonemap';
 import { Connection } from './connection';
-import type { EngineHost, EngineSettings, Take, TracerCopy } from './engine-host';
+import type { EngineHost, EngineSettings, TracerSpec, TracerCopy } from './engine-host';
 import { abortError, isAbort } from './aborts';
 import type { ViewerState } from './events';
 import { RememberingHierarchies } from './hierarchies';
@@ -10,11 +10,11 @@ import { makeTracer } from './make-tracer';
 import { Preparation } from './preparation';
 import { RenderLoop, type Size } from './render-loop';
 
-export type { EngineHost, EngineSettings, Take, TracerCopy } from './engine-host';
+export type { EngineHost, EngineSettings, TracerSpec, TracerCopy } from './engine-host';
 export type { ViewerState } from './events';
 
 /** Gives what a tracer is made from: of a scene as it came, or as it was edited in the tracer whose device was lost. */
-type Source = (former: PathTracer | undefined) => Take;
+type Source = (former: PathTracer | undefined) => TracerSpec;
 
 /** Options of {@link Engine.show}. */
 export interface ShowOptions {
@@ -136,9 +136,9 @@ export class Engine {
   copyFor(aspect: number): TracerCopy | undefined {
     const { device, tracer: shown } = this;
     if (!this.#source || !device || !this.#current(shown)) return undefined;
-    const take = this.#source(shown);
-    const options = { ...this.#tracerOptions(), ...take.options, camera: this.#host.camera(aspect) };
-    return { ready: take.ready, create: (more) => PathTracer.create(device, take.scene, { ...options, ...more }) };
+    const spec = this.#source(shown);
+    const options = { ...this.#tracerOptions(), ...spec.options, camera: this.#host.camera(aspect) };
+    return { ready: spec.ready, create: (more) => PathTracer.create(device, spec.scene, { ...options, ...more }) };
   }
 
   /** Edits that wait for the next frame. */
@@ -289,14 +289,14 @@ export class Engine {
       };
     };
     let restored = false;
-    const restoring = (): Take => {
-      const take = source(former);
+    const restoring = (): TracerSpec => {
+      const spec = source(former);
       const ready = async (tracer: PathTracer) => {
-        await take.ready?.(tracer);
+        await spec.ready?.(tracer);
         this.#loop.adopt(tracer);
         restored = !!former && (await this.#loop.restore(tracer));
       };
-      return { ...take, ready };
+      return { ...spec, ready };
     };
     const prepared = this.#preparation.run(
       (either) => makeTracer(this.#connection, restoring, () => options(either)),

@@ -1,6 +1,6 @@
 import { PathTracer, type PathTracerOptions } from '@glanz/renderer';
 import type { Connection } from './connection';
-import type { Take } from './engine-host';
+import type { TracerSpec } from './engine-host';
 import { isAbort } from './aborts';
 import { ViewerError } from './errors';
 import { soon } from './visibility';
@@ -20,7 +20,7 @@ export interface MadeTracer {
  */
 export async function makeTracer(
   connection: Connection,
-  source: () => Take,
+  source: () => TracerSpec,
   optionsNow: () => PathTracerOptions,
 ): Promise<MadeTracer> {
   for (;;) {

@@ -1,5 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
-import { previewShare } from './crossfade';
+import { previewWeight } from './crossfade';
 import type { Display, GpuImage } from './display';
 import { Edits } from './edits';
 import type { EngineHost, EngineSettings } from './engine-host';
@@ -432,9 +432,9 @@ export class RenderLoop {
     if (!tracer || !display || !this.#fresh) return;
     const image = imageOf(tracer);
     if (!sameSize(image.size, this.imageSize)) display.forget();
-    const share = display.kept > 0 ? previewShare(tracer.samples, display.kept, this.#settings.samples) : 0;
-    if (share === 0 && display.kept > 0) display.forget();
-    display.draw(image, this.#canvasSize, share);
+    const weight = display.kept > 0 ? previewWeight(tracer.samples, display.kept, this.#settings.samples) : 0;
+    if (weight === 0 && display.kept > 0) display.forget();
+    display.draw(image, this.#canvasSize, weight);
     this.#host.drawn(this.#state === 'moving', milliseconds, image.size);
   }
 }

@@ -2,7 +2,7 @@ import type { PathTracer } from '@glanz/renderer';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
 import { sceneOf } from './checks';
 import type { Emitter } from './emitter';
-import type { Engine, Take } from './engine';
+import type { Engine, TracerSpec } from './engine';
 import { isAbort } from './aborts';
 import type { LoadStage, ViewerEvents } from './events';
 import { fitCamera } from './fit-camera';
@@ -159,7 +159,7 @@ export class ViewerModel {
       readonly camera: Camera;
       readonly variant: string | undefined;
     },
-  ): Take {
+  ): TracerSpec {
     const variant = former ? this.variant : first.variant;
     const groups = former?.lightGroups ?? [];
     return {

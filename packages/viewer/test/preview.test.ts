@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { previewShare } from '../src/crossfade';
+import { previewWeight } from '../src/crossfade';
 import { DIVISORS, PreviewController } from '../src/preview';
 
 /** Drives a controller by a GPU that needs `fixed` ms a frame and `nanoseconds` a path. */
@@ -49,18 +49,18 @@ describe('PreviewController', () => {
   });
 });
 
-describe('previewShare', () => {
+describe('previewWeight', () => {
   it('begins with the preview, ends without it, and never jumps', () => {
-    const shares = Array.from({ length: 257 }, (_, samples) => previewShare(samples, 16, 256));
-    expect(shares[0]).toBe(1);
-    shares.forEach((share, i) => i > 0 && expect(share).toBeLessThanOrEqual(shares[i - 1] as number));
-    expect(shares.findIndex((share) => share === 0)).toBe(32);
+    const weights = Array.from({ length: 257 }, (_, samples) => previewWeight(samples, 16, 256));
+    expect(weights[0]).toBe(1);
+    weights.forEach((weight, i) => i > 0 && expect(weight).toBeLessThanOrEqual(weights[i - 1] as number));
+    expect(weights.findIndex((weight) => weight === 0)).toBe(32);
     // The last steps change the image by less than a hundredth of what the two differ.
-    expect(shares[30]! - shares[31]!).toBeLessThan(1 / 100);
+    expect(weights[30]! - weights[31]!).toBeLessThan(1 / 100);
   });
 
   it('is gone by half of a short render', () => {
-    expect(previewShare(4, 4, 8)).toBe(0);
-    expect(previewShare(1, 4, 1)).toBe(0);
+    expect(previewWeight(4, 4, 8)).toBe(0);
+    expect(previewWeight(1, 4, 1)).toBe(0);
   });
 });

@@ -55,7 +55,7 @@ declare global {
 /**
  * Wraps WebGPU in a page, so that a test can inject faults through `window.gpuFaults` and count what stays alive. A
  * device that is lost by `destroy()` alone has the reason `destroyed`; drivers give `unknown`, which only a wrapper can
- * imitate. Call it before the page is opened.
+ * simulate. Call it before the page is opened.
  *
  * @param first What to set before the page's own scripts run.
  */

@@ -42,7 +42,7 @@ export interface ImageFacts {
 /** The cost that the heat map's last colour stands for. */
 export const HOTTEST = 80;
 
-/** The thread is handed back after so many milliseconds. */
+/** Yields to the event loop after so many milliseconds. */
 const SLICE_MS = 12;
 
 /** Keeps nothing: for windows in which the browser gives no database. */

@@ -3,7 +3,7 @@ import type { TriangleMesh } from '../layout';
 import { BvhError } from '../error';
 import type { Tlas } from '../tlas';
 import { rayCount, startRay } from './batch';
-import { Once } from './once';
+import { VisitedSet } from './visited-set';
 import type { Hit, InstanceHit, Ray } from './queries';
 import { borrow, giveBack, type BlasMesh, type HitVisitor } from './walk';
 
@@ -11,12 +11,12 @@ export type { HitVisitor } from './walk';
 
 /** Filters hits for a visitor: a triangle that is in several leaves is reported once. */
 class HitFilter {
-  readonly #once = new Once();
+  readonly #visited = new VisitedSet();
   #blas: Blas | undefined;
   #instances: readonly BlasMesh[] = [];
   #visit: HitVisitor = () => undefined;
   readonly visitor: HitVisitor = (t, u, v, triangle, instance) =>
-    this.#once.first(this.#blas ?? (this.#instances[instance] as BlasMesh).blas, triangle, instance) &&
+    this.#visited.first(this.#blas ?? (this.#instances[instance] as BlasMesh).blas, triangle, instance) &&
     this.#visit(t, u, v, triangle, instance) === true;
 
   /** For one BLAS, or for the instances. */
@@ -29,7 +29,7 @@ class HitFilter {
 
   /** For another ray. */
   next(): HitVisitor {
-    this.#once.start();
+    this.#visited.start();
     return this.visitor;
   }
 }

@@ -14,7 +14,7 @@ import {
   type TriangleMesh,
 } from '../layout';
 import type { Tlas } from '../tlas';
-import { Once } from './once';
+import { VisitedSet } from './visited-set';
 import { INSIDE, OUTSIDE, type NumberedRegion, type Region } from './regions';
 import { toWorld } from './to-world';
 import type { BlasMesh } from './walk';
@@ -111,11 +111,11 @@ class OverlapWalk {
   /** Whether the leaf that was found last lies inside the region. */
   #leafInside = false;
   readonly #placed = new PlacedRegion();
-  readonly #once = new Once();
+  readonly #visited = new VisitedSet();
 
   /** Whether the visitor has ended it. */
   through(blas: Blas, mesh: TriangleMesh, region: Region, visit: OverlapVisitor): boolean {
-    this.#once.start();
+    this.#visited.start();
     return this.#search(blas, mesh, region, 0, false, visit);
   }
 
@@ -167,7 +167,7 @@ class OverlapWalk {
           )
             continue;
         }
-        if (!this.#once.first(blas, triangle, instance) || visit(triangle, instance) !== true) continue;
+        if (!this.#visited.first(blas, triangle, instance) || visit(triangle, instance) !== true) continue;
         this.#top = base;
         return true;
       }
@@ -184,7 +184,7 @@ class OverlapWalk {
     const words = wordsOf(nodes);
     const placed = this.#placed;
     placed.region = region;
-    this.#once.start();
+    this.#visited.start();
     const base = this.#top;
     this.#push(0, false);
     for (;;) {

@@ -40,7 +40,7 @@ try {
   rmSync(folder, { recursive: true, force: true });
 }
 
-/** Draco reads its WebAssembly from beside its own file; here it is handed over. */
+/** Draco reads its WebAssembly from beside its own file; here it is passed as bytes. */
 const draco = {
   name: 'draco',
   setup(context) {

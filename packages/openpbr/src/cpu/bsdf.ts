@@ -1,10 +1,10 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
-import { interfaceEnergy, isOverOpaque, isSummed, lightShare, summedShareMean } from './dielectric';
+import { interfaceEnergy, isOverOpaque, isSummed, interfaceAlbedo, summedAlbedoMean } from './dielectric';
 import { cosineSample, diffuseEven, diffuseGain, diffuseGrazing, eon } from './diffuse';
-import { energyShareMean, mirrorLost, mirrorLostMean, stretchedShareMean } from './energy';
+import { energyAlbedoMean, conductorLoss, conductorLossMean, stretchedAlbedoMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
-import { filmFacet, filmReflectance, filmShare, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
+import { filmFacet, filmReflectance, filmChange, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
 import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
@@ -51,7 +51,7 @@ export interface Bsdf {
     readonly metalness: number;
     readonly roughness: number;
     /** Directional albedo of multiple scattering, and its mean loss. */
-    readonly bounced: OpenPbrColor;
+    readonly multiscatter: OpenPbrColor;
     readonly meanLost: number;
     /** Its complex index per channel, below a film. */
     readonly index: readonly [ComplexIndex, ComplexIndex, ComplexIndex];
@@ -62,7 +62,7 @@ export interface Bsdf {
     readonly summed: boolean;
     readonly roughness: number;
     readonly scale: OpenPbrColor;
-    readonly bounced: OpenPbrColor;
+    readonly multiscatter: OpenPbrColor;
   };
   readonly film: Film;
   /** Factor on what lies below the interface, by the film. */
@@ -150,15 +150,15 @@ export function prepareBsdf(
   const f0 = rgb((i) => p.base_weight * p.base_color[i]);
   const weight = Math.min(p.specular_weight, 1e6);
   const alpha = ggxAlpha(roughness, p.specular_roughness_anisotropy);
-  const lost = multipleScattering ? mirrorLost(alpha, roughness, wo, mu) : 0;
-  const meanLost = Math.max(mirrorLostMean(alpha, roughness), 1e-7);
+  const lost = multipleScattering ? conductorLoss(alpha, roughness, wo, mu) : 0;
+  const meanLost = Math.max(conductorLossMean(alpha, roughness), 1e-7);
   const film = prepareFilm(whole, outerIor, inside, filmWavelengths);
   const index = rgbOf((i) => metalIndex(f0[i], p.specular_color[i]));
   const seen = mu + 0.8 * roughness * roughness * (1 - mu);
   const typical = filmedMetal(film, index, weight, seen, fresnelMetal(f0, p.specular_color, seen, weight));
   const mean = filmedMetal(film, index, weight, 0.7, fresnelMetalMean(f0, p.specular_color, weight));
   const limit = clamp(weight, 1e-6, 1);
-  const bounced = rgb(
+  const metalMultiscatter = rgb(
     (i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7),
   );
   const tint: OpenPbrColor = inside ? [1, 1, 1] : p.specular_color;
@@ -166,19 +166,21 @@ export function prepareBsdf(
   const face = prepareInterface(p, alpha, wo, mu, multipleScattering);
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   // From inside nothing opaque lies beyond it.
-  const bare = prepareInterface(
+  const uncoated = prepareInterface(
     inside ? { ...outer, transmission_weight: 1 } : outer,
     alpha,
     wo,
     mu,
     multipleScattering,
   );
-  const filmed = filmShare(film, (1 + face.epsilon) / (1 - face.epsilon), face.share, alpha, wo);
-  const clear = inside ? filmShare(film, (1 + bare.epsilon) / (1 - bare.epsilon), bare.share, alpha, wo) : filmed;
+  const filmed = filmChange(film, (1 + face.epsilon) / (1 - face.epsilon), face.albedo, alpha, wo);
+  const clear = inside
+    ? filmChange(film, (1 + uncoated.epsilon) / (1 - uncoated.epsilon), uncoated.albedo, alpha, wo)
+    : filmed;
   const transmission = prepareTransmission(
     outer,
     face,
-    bare,
+    uncoated,
     clear,
     alpha,
     wo,
@@ -188,32 +190,34 @@ export function prepareBsdf(
     inside,
     multipleScattering,
   );
-  const subsurface = prepareThinSubsurface(p, insulator * (1 - face.share));
+  const subsurface = prepareThinSubsurface(p, insulator * (1 - face.albedo));
   const scale = rgb((i) => insulator * (1 - transmission.share) * tint[i]);
   const specular = rgb(
     (i) =>
       p.base_metalness * typical[i] * (1 - lost) +
-      scale[i] * Math.max(face.share - face.bounced + filmed.more[i], 0) +
-      transmission.mirrorAlbedo[i],
+      scale[i] * Math.max(face.albedo - face.multiscatter + filmed.more[i], 0) +
+      transmission.reflectionAlbedo[i],
   );
-  const rebounced = rgb((i) => scale[i] * face.bounced + transmission.mirrorBounced[i]);
+  const dielectricMultiscatter = rgb((i) => scale[i] * face.multiscatter + transmission.reflectionMultiscatter[i]);
   const diffuse =
-    insulator * p.base_weight * (1 - p.transmission_weight) * (1 - p.subsurface_weight) * (1 - face.share);
+    insulator * p.base_weight * (1 - p.transmission_weight) * (1 - p.subsurface_weight) * (1 - face.albedo);
   const spread = rgb(
     (i) =>
-      bounced[i] + rebounced[i] + (diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]) * filmed.pass[i],
+      metalMultiscatter[i] +
+      dielectricMultiscatter[i] +
+      (diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]) * filmed.pass[i],
   );
-  const beneath = rgb((i) => transmission.bounced[i] + subsurface.through * subsurface.color[i] * filmed.pass[i]);
+  const beneath = rgb((i) => transmission.multiscatter[i] + subsurface.through * subsurface.color[i] * filmed.pass[i]);
   const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
-  const reflected = stretchedShareMean(
+  const reflected = stretchedAlbedoMean(
     face.epsilon,
     alpha,
     roughness,
     face.summed && isOverOpaque(p)
-      ? summedShareMean(face.epsilon, roughness)
-      : energyShareMean(face.epsilon, roughness),
+      ? summedAlbedoMean(face.epsilon, roughness)
+      : energyAlbedoMean(face.epsilon, roughness),
   );
   const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected, face.epsilon);
   const even = diffuseEven(p.base_diffuse_roughness, reflected, face.epsilon);
@@ -246,7 +250,7 @@ export function prepareBsdf(
       specularWeight: weight,
       metalness: p.base_metalness,
       roughness,
-      bounced,
+      multiscatter: metalMultiscatter,
       meanLost,
       index,
     },
@@ -256,7 +260,7 @@ export function prepareBsdf(
       summed: face.summed,
       roughness,
       scale,
-      bounced: rebounced,
+      multiscatter: dielectricMultiscatter,
     },
     film,
     filmPass: filmed.pass,
@@ -288,7 +292,7 @@ function filmedMetal(
   );
 }
 
-/** What a facet seen at cosine c reflects, all microfacet lobes of the base, and what it lets through. */
+/** The reflectance of a facet seen at cosine c, by all microfacet lobes of the base, and its transmittance. */
 function facet(b: Bsdf, c: number): { reflected: OpenPbrColor; through: OpenPbrColor } {
   const metal = filmedMetal(
     b.film,
@@ -298,8 +302,8 @@ function facet(b: Bsdf, c: number): { reflected: OpenPbrColor; through: OpenPbrC
     fresnelMetal(b.metal.f0, b.metal.tint, c, b.metal.specularWeight),
   );
   const fresnel = fresnelDielectric(b.dielectric.eta, c);
-  const { thin, mirrorEta, fresnelEta, mirror, color } = b.transmission;
-  const clear = fresnelDielectric(mirrorEta, c);
+  const { thin, reflectionEta, fresnelEta, reflection, color } = b.transmission;
+  const clear = fresnelDielectric(reflectionEta, c);
   const { weight } = b.film;
   const film = weight > 0 ? filmFacet(b.film, c) : ([0, 0, 0] as const);
   const below = 1 - fresnelDielectric(fresnelEta, c);
@@ -308,7 +312,7 @@ function facet(b: Bsdf, c: number): { reflected: OpenPbrColor; through: OpenPbrC
       (i) =>
         b.metal.metalness * metal[i] +
         b.dielectric.scale[i] * mix(fresnel, film[i], weight) +
-        mirror[i] * (thin ? 1 : mix(clear, film[i], weight)),
+        reflection[i] * (thin ? 1 : mix(clear, film[i], weight)),
     ),
     through: rgb((i) => color[i] * (thin ? 1 : below * (1 - (weight * (film[i] - clear)) / Math.max(1 - clear, 1e-6)))),
   };
@@ -322,7 +326,7 @@ function reflectionChance(b: Bsdf, { reflected, through }: ReturnType<typeof fac
 
 /** Cosine, and what the interface lets through on the way of the light to the diffuse lobe. */
 const diffusePass = (b: Bsdf, wi: OpenPbrVector): number =>
-  wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - lightShare(b.dielectric, b.alpha, wi));
+  wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - interfaceAlbedo(b.dielectric, b.alpha, wi));
 
 /** The facet that lets light through from `wi` to `wo`. */
 const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector =>
@@ -347,12 +351,12 @@ function scatterThrough(
   const pdf =
     b.specularProbability * (1 - reflectionChance(b, sides)) * density + (1 - b.specularProbability) * b.below * cosine;
   const mirrored: OpenPbrVector = [wi[0], wi[1], -wi[2]];
-  const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, mirrored);
+  const thinDiffuse = eon(b.subsurface.color, b.diffuseRoughness, wo, mirrored);
   const passes = b.subsurface.through * diffusePass(b, mirrored);
   return {
     f: rgb(
       (i) =>
-        (sides.through[i] * value + transmission.bounced[i] * cosine + paper[i] * passes * b.filmPass[i]) *
+        (sides.through[i] * value + transmission.multiscatter[i] * cosine + thinDiffuse[i] * passes * b.filmPass[i]) *
         coat[i] *
         b.fuzz.below,
     ),
@@ -367,9 +371,9 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const [value, density] = ggx(b.alpha, wo, wi, h, b.bound);
   const sides = facet(b, c);
   const through = b.diffuseScale > 0 || b.subsurface.back > 0 ? diffusePass(b, wi) : 0;
-  const bounced = (mirrorLost(b.alpha, b.metal.roughness, wi, wi[2]) / b.metal.meanLost / Math.PI) * wi[2];
+  const metalLobe = (conductorLoss(b.alpha, b.metal.roughness, wi, wi[2]) / b.metal.meanLost / Math.PI) * wi[2];
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
-  const paper = eon(b.subsurface.color, b.diffuseRoughness, wo, wi);
+  const thinDiffuse = eon(b.subsurface.color, b.diffuseRoughness, wo, wi);
   const { frame } = b.coat;
   const coatWi = inCoat(frame, wi);
   const pass = coatPass(b.coat, Math.max(coatWi[2], 1e-5));
@@ -384,9 +388,9 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
     f: rgb(
       (i) =>
         (value * sides.reflected[i] +
-          (b.dielectric.bounced[i] * wi[2]) / Math.PI +
-          bounced * b.metal.bounced[i] +
-          through * b.filmPass[i] * (b.diffuseScale * diffuse[i] + b.subsurface.back * paper[i])) *
+          (b.dielectric.multiscatter[i] * wi[2]) / Math.PI +
+          metalLobe * b.metal.multiscatter[i] +
+          through * b.filmPass[i] * (b.diffuseScale * diffuse[i] + b.subsurface.back * thinDiffuse[i])) *
           pass[i] *
           b.fuzz.below +
         mirrored * b.fuzz.below +

@@ -1,6 +1,6 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { interfaceEnergy } from './dielectric';
-import { energyShare, fresnelMean } from './energy';
+import { energyAlbedo, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxAlpha, ggxBound, viewRoughness, type Slopes } from './ggx';
 import { clamp, dot } from './vector';
@@ -19,7 +19,7 @@ export interface Coat {
   /** Directional albedo, times coverage. */
   readonly albedo: number;
   /** Factors on the base where there is no coat, and where light comes through it towards the viewer. */
-  readonly bare: OpenPbrColor;
+  readonly uncoated: OpenPbrColor;
   readonly through: OpenPbrColor;
   /** log₂ of the transmittance along the normal. */
   readonly absorption: OpenPbrColor;
@@ -144,20 +144,28 @@ export function prepareCoat(p: OpenPbrParameters, baseWo: OpenPbrVector, multipl
   const alpha = ggxAlpha(roughness, p.coat_roughness_anisotropy);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
   const eta = (1 + epsilon) / (1 - epsilon);
-  const { share, bounced: more } = interfaceEnergy(epsilon, roughness, alpha, wo, mu, epsilon < 0, multipleScattering);
+  const { albedo, multiscatter: more } = interfaceEnergy(
+    epsilon,
+    roughness,
+    alpha,
+    wo,
+    mu,
+    epsilon < 0,
+    multipleScattering,
+  );
   const absorption = absorptionOf(p);
   const darkening = coatDarkening(p, mu);
   return {
     alpha,
     bound: ggxBound(alpha, wo),
     eta,
-    scale: p.coat_weight * (multipleScattering ? share / Math.max(share - more, 0.1 * share + 1e-7) : 1),
-    albedo: p.coat_weight * share,
-    bare: rgb((i) => darkening[i] * (1 - p.coat_weight)),
-    through: rgb((i) => darkening[i] * p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
+    scale: p.coat_weight * (multipleScattering ? albedo / Math.max(albedo - more, 0.1 * albedo + 1e-7) : 1),
+    albedo: p.coat_weight * albedo,
+    uncoated: rgb((i) => darkening[i] * (1 - p.coat_weight)),
+    through: rgb((i) => darkening[i] * p.coat_weight * (1 - albedo) * passage(absorption[i], eta, mu)),
     absorption,
     entry: rgb(
-      (i) => darkening[i] * (1 - p.coat_weight + p.coat_weight * (1 - share) * passage(absorption[i], eta, mu)),
+      (i) => darkening[i] * (1 - p.coat_weight + p.coat_weight * (1 - albedo) * passage(absorption[i], eta, mu)),
     ),
     frame,
   };
@@ -165,7 +173,7 @@ export function prepareCoat(p: OpenPbrParameters, baseWo: OpenPbrVector, multipl
 
 /** Factor on the base for light from the cosine `mu`; twin of `openpbr_coat_pass`. */
 export const coatPass = (coat: Coat, mu: number): OpenPbrColor =>
-  rgb((i) => coat.bare[i] + coat.through[i] * passage(coat.absorption[i], coat.eta, mu));
+  rgb((i) => coat.uncoated[i] + coat.through[i] * passage(coat.absorption[i], coat.eta, mu));
 
 /** Factor on light through the base, with the cosine `mu` on the far side; twin of `openpbr_coat_through`. */
 export const coatThrough = (coat: Coat, exit: number, mu: number): OpenPbrColor =>
@@ -176,11 +184,11 @@ export function coatEmission(p: OpenPbrParameters, baseWo: OpenPbrVector): OpenP
   const wo = inCoat(coatFrame(p, baseWo), baseWo);
   const mu = clamp(wo[2], 1e-5, 1);
   const epsilon = dielectricEpsilon(p.coat_ior, 1);
-  const share = energyShare(
+  const albedo = energyAlbedo(
     epsilon,
     viewRoughness(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy), p.coat_roughness, wo),
     mu,
   );
   const absorption = absorptionOf(p);
-  return rgb((i) => mix(1, (1 - share) * passage(absorption[i], (1 + epsilon) / (1 - epsilon), mu), p.coat_weight));
+  return rgb((i) => mix(1, (1 - albedo) * passage(absorption[i], (1 + epsilon) / (1 - epsilon), mu), p.coat_weight));
 }

@@ -1,5 +1,5 @@
 import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { energyBounce, energyShare, energyTotalLost } from './energy';
+import { energyBounce, energyAlbedo, energyTotalLost } from './energy';
 import { ggxAlpha, viewRoughness, type Slopes } from './ggx';
 import { insideEnergy } from './inside';
 import { stretchedEnergy } from './stretched';
@@ -8,17 +8,16 @@ import { OPENPBR_INNER_SUM_NODES } from '../tables/inner_nodes.wesl';
 
 /** What an interface does with the light towards a viewer; see the WGSL struct `OpenPbrDielectric`. */
 export interface InterfaceEnergy {
-  /** The part that is reflected, by all scattering. */
-  readonly share: number;
+  /** Directional albedo of its reflection, by all scattering. */
+  readonly albedo: number;
   /** What multiple scattering adds to it, and to the rest. */
-  readonly bounced: number;
-  readonly bouncedThrough: number;
+  readonly multiscatter: number;
+  readonly multiscatterThrough: number;
 }
 
 /**
- * Whether the interface's energies from its denser side are summed over facets: where something lies below it, and near
- * index
- * 1. For what is clear alone the tables do, since nothing but the choice of samples hangs on its share.
+ * Whether the interface's albedos from its denser side are summed over facets: where something opaque lies below it, and
+ * near index 1. Elsewhere the tables are exact enough, since the albedo decides only how samples are chosen.
  */
 export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean =>
   epsilon < 0 && (epsilon > -OPENPBR_INSIDE_NEAR || isOverOpaque(p));
@@ -27,8 +26,8 @@ export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean =>
 export const isOverOpaque = (p: OpenPbrParameters): boolean =>
   (1 - p.transmission_weight) * (p.geometry_thin_walled ? 1 : 1 - p.subsurface_weight) > 0;
 
-/** The cosine-weighted mean of the summed share over all directions, with a round highlight. */
-function sumShareMean(epsilon: number, roughness: number): number {
+/** The cosine-weighted mean of the summed albedo over all directions, with a round highlight. */
+function sumAlbedoMean(epsilon: number, roughness: number): number {
   const eta = (1 + epsilon) / (1 - epsilon);
   const critical = Math.sqrt(Math.max(1 - eta * eta, 0));
   const alpha = ggxAlpha(roughness, 0);
@@ -39,7 +38,7 @@ function sumShareMean(epsilon: number, roughness: number): number {
       [critical + (1 - critical) * x * x, 1 - critical],
     ] as const) {
       const wo: OpenPbrVector = [Math.sqrt(Math.max(1 - mu * mu, 0)), 0, mu];
-      through += (1 - interfaceEnergy(epsilon, roughness, alpha, wo, mu, true, false).share) * mu * step * x * weight;
+      through += (1 - interfaceEnergy(epsilon, roughness, alpha, wo, mu, true, false).albedo) * mu * step * x * weight;
     }
   }
   return 1 - 4 * through;
@@ -47,10 +46,10 @@ function sumShareMean(epsilon: number, roughness: number): number {
 
 const remembered = { epsilon: 0, roughness: 0, mean: 0 };
 
-/** {@link sumShareMean}; remembered for the last interface, for one is mostly looked at from many sides. */
-export function summedShareMean(epsilon: number, roughness: number): number {
+/** {@link sumAlbedoMean}; remembered for the last interface, for one is mostly looked at from many sides. */
+export function summedAlbedoMean(epsilon: number, roughness: number): number {
   if (remembered.epsilon !== epsilon || remembered.roughness !== roughness)
-    Object.assign(remembered, { epsilon, roughness, mean: sumShareMean(epsilon, roughness) });
+    Object.assign(remembered, { epsilon, roughness, mean: sumAlbedoMean(epsilon, roughness) });
   return remembered.mean;
 }
 
@@ -76,24 +75,23 @@ export function interfaceEnergy(
       : undefined;
   const bounce = energyBounce(epsilon, roughness);
   const lost = Math.max(kept ? 1 - kept[0] - kept[1] : energyTotalLost(epsilon, roughness, mu), 0);
-  const share = kept
+  const albedo = kept
     ? Math.min(kept[0] + lost * bounce, 1)
-    : energyShare(epsilon, viewRoughness(alpha, roughness, wo), mu);
-  if (!multipleScattering) return { share, bounced: 0, bouncedThrough: 0 };
-  const bounced = lost * bounce;
-  return { share, bounced, bouncedThrough: lost - bounced };
+    : energyAlbedo(epsilon, viewRoughness(alpha, roughness, wo), mu);
+  if (!multipleScattering) return { albedo, multiscatter: 0, multiscatterThrough: 0 };
+  const multiscatter = lost * bounce;
+  return { albedo, multiscatter, multiscatterThrough: lost - multiscatter };
 }
 
 /**
- * Share of light from `wi` that an interface reflects, as {@link interfaceEnergy} has it for a viewer there, so that
- * what goes down and comes up again is the same both ways; but for stretched highlights, where it is that of the
- * tables. Twin of `openpbr_light_share`.
+ * Directional albedo of an interface for light from `wi`, the same as {@link interfaceEnergy} has for a viewer there, so
+ * that the lobes below it are reciprocal; for stretched highlights, that of the tables. Twin of `openpbr_interface_albedo`.
  */
-export function lightShare(
+export function interfaceAlbedo(
   { epsilon, summed, roughness }: { readonly epsilon: number; readonly summed: boolean; readonly roughness: number },
   alpha: Slopes,
   wi: OpenPbrVector,
 ): number {
-  if (summed) return interfaceEnergy(epsilon, roughness, alpha, wi, wi[2], true, false).share;
-  return energyShare(epsilon, viewRoughness(alpha, roughness, wi), wi[2]);
+  if (summed) return interfaceEnergy(epsilon, roughness, alpha, wi, wi[2], true, false).albedo;
+  return energyAlbedo(epsilon, viewRoughness(alpha, roughness, wi), wi[2]);
 }

@@ -11,7 +11,7 @@ import {
 } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
-import { mirrorCosine, type Slopes } from './ggx';
+import { conductorCosine, type Slopes } from './ggx';
 import { clamp } from './vector';
 
 /** What a texture with linear filtering and clamping gives at `coords` in [0, 1]. */
@@ -115,10 +115,10 @@ function stretchedMore(alpha: Slopes, roughness: number, x: number, along: numbe
 }
 
 /**
- * Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of `openpbr_mirror_lost`.
+ * Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of `openpbr_conductor_loss`.
  */
-export function mirrorLost(alpha: Slopes, roughness: number, w: OpenPbrVector, mu: number): number {
-  const cosine = mirrorCosine(alpha, w, mu);
+export function conductorLoss(alpha: Slopes, roughness: number, w: OpenPbrVector, mu: number): number {
+  const cosine = conductorCosine(alpha, w, mu);
   const lost = energyLost(roughness, cosine);
   if (alpha[0] <= alpha[1]) return lost;
   const slope = clamp(
@@ -132,8 +132,8 @@ export function mirrorLost(alpha: Slopes, roughness: number, w: OpenPbrVector, m
   return Math.max(lost - stretchedMore(alpha, roughness, angleAxis(t), along), 0);
 }
 
-/** The cosine-weighted mean of {@link mirrorLost} over all directions; twin of `openpbr_mirror_lost_mean`. */
-export function mirrorLostMean(alpha: Slopes, roughness: number): number {
+/** The cosine-weighted mean of {@link conductorLoss} over all directions; twin of `openpbr_conductor_loss_mean`. */
+export function conductorLossMean(alpha: Slopes, roughness: number): number {
   const lost = energyLostMean(roughness);
   return alpha[0] > alpha[1]
     ? lost * (1 - stretchedMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0))
@@ -142,9 +142,9 @@ export function mirrorLostMean(alpha: Slopes, roughness: number): number {
 
 /**
  * Share of the energy that an interface reflects by all scattering, the rest being refracted; twin of
- * `openpbr_energy_share`.
+ * `openpbr_energy_albedo`.
  */
-export function energyShare(epsilon: number, roughness: number, mu: number): number {
+export function energyAlbedo(epsilon: number, roughness: number, mu: number): number {
   if (epsilon === 0) return 0;
   const r = Math.max(roughness, OPENPBR_MIN_ROUGHNESS);
   const eta = (1 + epsilon) / (1 - epsilon);
@@ -165,10 +165,10 @@ export function energyShare(epsilon: number, roughness: number, mu: number): num
 }
 
 /**
- * The cosine-weighted mean of {@link energyShare} over all directions, seen from the thinner medium; 0 from inside,
- * where the model sums it over facets instead. Twin of `openpbr_energy_share_mean`.
+ * The cosine-weighted mean of {@link energyAlbedo} over all directions, seen from the thinner medium; 0 from inside,
+ * where the model sums it over facets instead. Twin of `openpbr_energy_albedo_mean`.
  */
-export function energyShareMean(epsilon: number, roughness: number): number {
+export function energyAlbedoMean(epsilon: number, roughness: number): number {
   if (epsilon <= 0) return 0;
   const y = roughnessAxis(Math.max(roughness, OPENPBR_MIN_ROUGHNESS), TABLE_ROUGHNESSES);
   return (
@@ -182,12 +182,12 @@ export function energyShareMean(epsilon: number, roughness: number): number {
 }
 
 /**
- * {@link energyShareMean} of a stretched highlight, whose share at `viewRoughness` is a little more in the mean; from
+ * {@link energyAlbedoMean} of a stretched highlight, whose share at `viewRoughness` is a little more in the mean; from
  * inside it is what is given. Twin of `openpbr_energy_stretched_mean`.
  *
  * @param reflected The mean share with a round highlight.
  */
-export function stretchedShareMean(epsilon: number, [x, y]: Slopes, roughness: number, reflected: number): number {
+export function stretchedAlbedoMean(epsilon: number, [x, y]: Slopes, roughness: number, reflected: number): number {
   if (epsilon <= 0) return reflected;
   const stretched = (x * x - y * y) / (x * x + y * y);
   return (

@@ -8,8 +8,8 @@ const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), ch
 const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 
 /**
- * A thin film and what it lies between; twin of the WGSL struct `OpenPbrFilm`. Indices are relative to what is outside
- * of the object.
+ * A thin film between two media; twin of the WGSL struct `OpenPbrFilm`. Indices are relative to the outside of the
+ * object.
  */
 export interface Film {
   /** Coverage. */
@@ -120,23 +120,25 @@ export function filmReflectance(
     [square3[0] * q2 - square2 * q3[0], square3[1] * q2 - square2 * q3[1]],
     [square3[0] * q2 + square2 * q3[0], square3[1] * q2 + square2 * q3[1]],
   ];
-  const faces: readonly (readonly [near: number, far: Complex])[] = [
+  const faces: readonly (readonly [r12: number, r23: Complex])[] = [
     [(q1 - q2) / (q1 + q2), ratio([q2 - q3[0], -q3[1]], [q2 + q3[0], q3[1]])],
     [(square2 * q1 - square1 * q2) / (square2 * q1 + square1 * q2), ratio(...parallel)],
   ];
   const length = path * q2;
-  const kept = Math.exp(-bands.width * length);
+  const coherence = Math.exp(-bands.width * length);
   const waves = bands.wavenumbers.map((wavenumber) => {
     const phase = 2 * Math.PI * length * wavenumber;
     let sum = 0;
-    for (const [near, far] of faces) {
-      const a = near * near;
-      const b = far[0] * far[0] + far[1] * far[1];
-      const rest = Math.max(1 - a * b, 1e-7);
-      const x = near * (far[0] * Math.cos(phase) - far[1] * Math.sin(phase));
+    for (const [r12, r23] of faces) {
+      const a = r12 * r12;
+      const b = r23[0] * r23[0] + r23[1] * r23[1];
+      const contrast = Math.max(1 - a * b, 1e-7);
+      const x = r12 * (r23[0] * Math.cos(phase) - r23[1] * Math.sin(phase));
       sum +=
-        ((a + b) * (1 - kept * kept * a * b) - 2 * a * b * (1 - kept * kept) + 2 * kept * rest * x) /
-        (rest * (1 + kept * kept * a * b + 2 * kept * x));
+        ((a + b) * (1 - coherence * coherence * a * b) -
+          2 * a * b * (1 - coherence * coherence) +
+          2 * coherence * contrast * x) /
+        (contrast * (1 + coherence * coherence * a * b + 2 * coherence * x));
     }
     return sum / 2;
   });
@@ -160,24 +162,24 @@ export const filmFacet = (film: Film, c: number): OpenPbrColor =>
 const HEIGHTS = [0.06943184, 0.33000948, 0.66999052, 0.93056816];
 const PARTS = [0.04348186, 0.08151814, 0.08151814, 0.04348186];
 
-/** What the film changes of the albedos of an interface; twin of the WGSL struct `OpenPbrFilmShare`. */
-export interface FilmShare {
+/** What the film changes of the albedos of an interface; twin of the WGSL struct `OpenPbrFilmChange`. */
+export interface FilmChange {
   /** What it adds to the part of the light that single scattering reflects. */
   readonly more: OpenPbrColor;
-  /** Factor on what single scattering lets through, and on all that goes through; the latter less the former. */
+  /** Factors on what single scattering lets through and on everything that is let through, and their difference. */
   readonly direct: OpenPbrColor;
   readonly pass: OpenPbrColor;
-  readonly apart: OpenPbrColor;
+  readonly difference: OpenPbrColor;
 }
 
 /**
- * Sums over sixteen facets as they are seen; twin of `openpbr_film_sums` with `openpbr_film_share`.
+ * Sums over sixteen facets as they are seen; twin of `openpbr_film_sums` with `openpbr_film_change`.
  *
  * @param eta Relative index of the interface without the film.
- * @param share The part of the light that it reflects.
+ * @param albedo Its directional albedo.
  */
-export function filmShare(film: Film, eta: number, share: number, alpha: Slopes, wo: OpenPbrVector): FilmShare {
-  if (film.weight <= 0) return { more: [0, 0, 0], direct: [1, 1, 1], pass: [1, 1, 1], apart: [0, 0, 0] };
+export function filmChange(film: Film, eta: number, albedo: number, alpha: Slopes, wo: OpenPbrVector): FilmChange {
+  if (film.weight <= 0) return { more: [0, 0, 0], direct: [1, 1, 1], pass: [1, 1, 1], difference: [0, 0, 0] };
   const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
   const more = [0, 0, 0];
   const through = [0, 0, 0];
@@ -198,11 +200,11 @@ export function filmShare(film: Film, eta: number, share: number, alpha: Slopes,
     }
   }
   const part = rgb((i) => (through[i] as number) / Math.max(plain, 1e-5));
-  const taken = rgb((i) => (more[i] as number) / Math.max(1 - share, 1e-5));
+  const taken = rgb((i) => (more[i] as number) / Math.max(1 - albedo, 1e-5));
   return {
     more: rgb((i) => more[i] as number),
     direct: rgb((i) => Math.max(1 - part[i], 0)),
     pass: rgb((i) => Math.max(1 - taken[i], 0)),
-    apart: rgb((i) => part[i] - taken[i]),
+    difference: rgb((i) => part[i] - taken[i]),
   };
 }

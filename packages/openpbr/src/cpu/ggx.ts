@@ -50,9 +50,9 @@ export const viewRoughness = (alpha: Slopes, roughness: number, w: OpenPbrVector
 
 /**
  * The cosine at which a round highlight has the same masking: `mu` of `w` if the highlight is round; twin of
- * `openpbr_mirror_cosine`.
+ * `openpbr_conductor_cosine`.
  */
-export const mirrorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): number =>
+export const conductorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): number =>
   mu / Math.hypot(mu, (Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) * Math.SQRT2) / Math.hypot(alpha[0], alpha[1]));
 
 /** The half vector, finite where two grazing directions cancel; twin of `openpbr_half`. */

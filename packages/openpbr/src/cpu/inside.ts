@@ -8,7 +8,7 @@ import { clamp, dot } from './vector';
 /** The parts of the light that single scattering reflects and lets through. */
 export type Kept = readonly [reflected: number, through: number];
 
-/** What the facet `h` mirrors to where it is seen, and what it refracts to there; 0 or less where it does not. */
+/** The visible parts of what the facet `h` reflects and refracts; 0 or less where it does not. */
 export function facetSeen(eta: number, alpha: Slopes, wo: OpenPbrVector, h: OpenPbrVector): Kept {
   const c = clamp(dot(wo, h), 0, 1);
   const along = c / eta - Math.sqrt(Math.max(1 - (1 - c * c) / (eta * eta), 1e-6));

@@ -20,8 +20,8 @@ export const stretchedEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): 
   eta < 1 ? insideEnergy(eta, alpha, wo) : fromOutside(eta, alpha, wo);
 
 /**
- * What is reflected over the facets that mirror upwards, since that has an edge; what passes, which has none, over the
- * whole cap.
+ * Reflection is summed over the facets that reflect upwards, since it has an edge; transmission, which has none, over
+ * the whole cap.
  */
 function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const wo: OpenPbrVector = [given[0], given[1], Math.max(given[2], 1e-5)];

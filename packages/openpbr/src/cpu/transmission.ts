@@ -1,7 +1,7 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { mirrorLost } from './energy';
+import { conductorLoss } from './energy';
 import { dielectricEpsilon } from './fresnel';
-import type { FilmShare } from './film';
+import type { FilmChange } from './film';
 import { ggxDistribution, ggxMasking, type Slopes } from './ggx';
 import { clamp, dot, normalize } from './vector';
 
@@ -22,14 +22,14 @@ export interface Transmission {
   readonly eta: number;
   readonly fresnelEta: number;
   /** Index for the reflection by the clear part, which a coat changes. */
-  readonly mirrorEta: number;
+  readonly reflectionEta: number;
   /** The share of the dielectric that is clear. */
   readonly share: number;
-  /** Factor on what facets let through: share of the surface, tint; and the albedo of that. */
+  /** Factor on the transmission of facets (weight and tint), and its albedo. */
   readonly color: OpenPbrColor;
   readonly albedo: OpenPbrColor;
-  /** Albedo of what leaves downwards after bounces among the facets. */
-  readonly bounced: OpenPbrColor;
+  /** Multiple-scattering albedo of what leaves downwards. */
+  readonly multiscatter: OpenPbrColor;
   /** Coverage of the coat that the light leaves through; 0 from outside. */
   readonly exit: number;
   readonly thin: boolean;
@@ -37,10 +37,10 @@ export interface Transmission {
   /** The part of `color` that enters the subsurface, per channel, and the probability of choosing it. */
   readonly subsurface: OpenPbrColor;
   readonly subsurfaceChance: number;
-  /** Factor on the reflection by the clear part; the albedo of that, and of further bounces. */
-  readonly mirror: OpenPbrColor;
-  readonly mirrorAlbedo: OpenPbrColor;
-  readonly mirrorBounced: OpenPbrColor;
+  /** Factor on the reflection by the clear part, its single-scattering and its multiple-scattering albedo. */
+  readonly reflection: OpenPbrColor;
+  readonly reflectionAlbedo: OpenPbrColor;
+  readonly reflectionMultiscatter: OpenPbrColor;
 }
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
@@ -48,26 +48,26 @@ const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), ch
 /** What {@link prepareTransmission} needs to know of an interface. */
 interface Interface {
   readonly epsilon: number;
-  readonly share: number;
-  readonly bounced: number;
-  readonly bouncedThrough: number;
+  readonly albedo: number;
+  readonly multiscatter: number;
+  readonly multiscatterThrough: number;
 }
 
 /**
- * Prepares what is let through; twin of `openpbr_transmission_prepare`.
+ * Prepares the transmission; twin of `openpbr_transmission_prepare`.
  *
- * @param outer The surface without what a coat does to its index, but with the roughness below it, relative to the
+ * @param outer The surface below the coat: with the roughness that the coat gives it, but the index relative to the
  * viewer's side.
  * @param face The interface of the opaque part.
- * @param bare The interface of `outer`.
- * @param film What a film changes of the side that is seen.
+ * @param uncoated The interface of `outer`.
+ * @param film What the film changes on the viewer's side.
  * @param weight Share of the surface that is dielectric.
  */
 export function prepareTransmission(
   outer: OpenPbrParameters,
   face: Interface,
-  bare: Interface,
-  film: FilmShare,
+  uncoated: Interface,
+  film: FilmChange,
   alpha: Slopes,
   wo: OpenPbrVector,
   mu: number,
@@ -84,61 +84,61 @@ export function prepareTransmission(
   const thin = outer.geometry_thin_walled;
   const tint: OpenPbrColor = outer.transmission_depth <= 0 || thin ? outer.transmission_color : [1, 1, 1];
   if (!thin) {
-    const clear = inside ? bare : face;
+    const clear = inside ? uncoated : face;
     const below = (1 - outer.transmission_weight) * outer.subsurface_weight;
     const share = outer.transmission_weight + below;
     const enters = weight * below;
     const total = rgb((i) => amount * tint[i] + enters);
-    const kept = inside ? 1 : Math.min((1 - face.share + 1e-6) / (1 - bare.share + 1e-6), 8);
+    const kept = inside ? 1 : Math.min((1 - face.albedo + 1e-6) / (1 - uncoated.albedo + 1e-6), 8);
     const color = rgb((i) => total[i] * kept);
-    const bounced = Math.min(bare.bouncedThrough, 1 - bare.share);
-    const direct = 1 - bare.share - bounced;
-    const mirror = rgb((i) => weight * share * outer.specular_color[i]);
+    const multiscatter = Math.min(uncoated.multiscatterThrough, 1 - uncoated.albedo);
+    const direct = 1 - uncoated.albedo - multiscatter;
+    const reflection = rgb((i) => weight * share * outer.specular_color[i]);
     return {
       eta,
       fresnelEta,
-      mirrorEta: (1 + clear.epsilon) / (1 - clear.epsilon),
+      reflectionEta: (1 + clear.epsilon) / (1 - clear.epsilon),
       share,
       color,
       albedo: rgb((i) => color[i] * direct * film.direct[i]),
-      bounced: rgb((i) => color[i] * Math.max(bounced * film.pass[i] + direct * film.apart[i], 0)),
+      multiscatter: rgb((i) => color[i] * Math.max(multiscatter * film.pass[i] + direct * film.difference[i], 0)),
       exit,
       thin,
       thinAlpha: alpha,
-      mirror,
-      mirrorAlbedo: rgb((i) => mirror[i] * Math.max(clear.share - clear.bounced + film.more[i], 0)),
-      mirrorBounced: rgb((i) => mirror[i] * clear.bounced),
+      reflection,
+      reflectionAlbedo: rgb((i) => reflection[i] * Math.max(clear.albedo - clear.multiscatter + film.more[i], 0)),
+      reflectionMultiscatter: rgb((i) => reflection[i] * clear.multiscatter),
       subsurface: rgb((i) => (total[i] > 0 ? enters / total[i] : 0)),
       subsurfaceChance: inside || enters <= 0 ? 0 : (3 * enters) / (total[0] + total[1] + total[2]),
     };
   }
   const reflected = rgb((i) => {
-    const share = clamp(face.share + film.more[i], 0, 1);
+    const share = clamp(face.albedo + film.more[i], 0, 1);
     return (2 * share) / (1 + share);
   });
   const narrowing = clamp(0.65 * Math.max(eta, 1 / eta) - 0.35, 0, 1);
   const path = 1 / Math.sqrt(Math.max(1 - (1 - mu * mu) / (eta * eta), 1e-4));
-  const lostBy = (roughness: number): number => (multipleScattering ? mirrorLost(alpha, roughness, wo, mu) : 0);
-  const mirror = rgb((i) => amount * reflected[i] * outer.specular_color[i]);
+  const lostBy = (roughness: number): number => (multipleScattering ? conductorLoss(alpha, roughness, wo, mu) : 0);
+  const reflection = rgb((i) => amount * reflected[i] * outer.specular_color[i]);
   const color = rgb((i) => amount * (1 - reflected[i]) * Math.max(tint[i], 1e-7) ** path);
   const reflectedLost = lostBy(outer.specular_roughness);
   const colorLost = lostBy(outer.specular_roughness * narrowing);
   return {
     eta,
     fresnelEta,
-    mirrorEta: fresnelEta,
+    reflectionEta: fresnelEta,
     share: outer.transmission_weight,
     subsurface: [0, 0, 0],
     subsurfaceChance: 0,
     color,
     albedo: rgb((i) => color[i] * (1 - colorLost)),
-    bounced: rgb((i) => color[i] * colorLost),
+    multiscatter: rgb((i) => color[i] * colorLost),
     exit,
     thin,
     thinAlpha: [Math.max(alpha[0] * narrowing ** 2, 1e-4), Math.max(alpha[1] * narrowing ** 2, 1e-4)],
-    mirror,
-    mirrorAlbedo: rgb((i) => mirror[i] * (1 - reflectedLost)),
-    mirrorBounced: rgb((i) => mirror[i] * reflectedLost),
+    reflection,
+    reflectionAlbedo: rgb((i) => reflection[i] * (1 - reflectedLost)),
+    reflectionMultiscatter: rgb((i) => reflection[i] * reflectedLost),
   };
 }
 

@@ -55,9 +55,9 @@ const ior: GltfMappingStep = ({ extensions }, parameters) => {
 };
 
 /**
- * A surface of volume or of none. Without thickness it is a sheet; with it, absorption follows Beer's law as in glTF.
- * OpenPBR tints either the surface or the interior: where glTF's volume absorbs, the base colour does not tint what
- * goes through.
+ * A surface with or without a volume. Without thickness it is a thin wall; with it, absorption follows Beer's law as in
+ * glTF. OpenPBR tints either the surface or the interior: where glTF's volume absorbs, the base colour does not tint
+ * the transmission.
  */
 const transmission: GltfMappingStep = ({ extensions }, parameters) => {
   const weight = extensions?.KHR_materials_transmission?.transmissionFactor ?? 0;
@@ -149,7 +149,7 @@ const anisotropy: GltfMappingStep = ({ extensions }, parameters) => {
     parameters.geometry_tangent = [Math.cos(rotation), Math.sin(rotation), 0];
 };
 
-/** glTF's film colours what is reflected only and lies in air; OpenPBR's colours what goes through too. */
+/** glTF's film tints the reflection only and lies in air; OpenPBR's tints the transmission too. */
 const iridescence: GltfMappingStep = ({ extensions }, parameters) => {
   const extension = extensions?.KHR_materials_iridescence;
   const weight = extension?.iridescenceFactor ?? 0;
@@ -189,7 +189,7 @@ const clearcoat: GltfMappingStep = ({ extensions }, parameters) => {
     parameters.specular_ior = index;
 };
 
-/** No surface at all: the base colour is what is seen. As OpenPBR, that is light, and it shines on its surroundings. */
+/** Unlit: the base colour is shown as it is. OpenPBR can only emit it, so it also lights other surfaces. */
 const unlit: GltfMappingStep = ({ extensions, pbrMetallicRoughness }, parameters) => {
   if (!extensions?.KHR_materials_unlit) return;
   const { geometry_opacity: opacity } = parameters;

@@ -39,7 +39,7 @@ const IDENTITY: Affine = [1, 0, 0, 1, 0, 0];
 /** How far a graph may be deep. */
 const DEPTH = 64;
 
-/** Told of what is read otherwise than it is meant. */
+/** Receives warnings about values that are read with another meaning than intended. */
 export type Tell = (code: 'color-space' | 'unsupported', message: string, line: number) => void;
 
 /** Colours of a texture without a colour space: images of 8 bits are sRGB by custom, others linear. */

@@ -206,17 +206,17 @@ export function readMaterialX(
   if (root.name !== 'materialx')
     throw failure('syntax', `its element is ${quote(`<${root.name}>`)}, not <materialx>.`, root.line);
   const warnings: MaterialXWarning[] = [];
-  const told = new Set<string>();
+  const reported = new Set<string>();
   const tell: Tell = (what, message, line) => {
     // A node may be asked more than once.
     const key = `${line} ${message}`;
-    if (!told.has(key))
+    if (!reported.has(key))
       warnings.push({
         code: `openpbr/materialx-${what}`,
         message: `MaterialX document, line ${line}: ${message}`,
         line,
       });
-    told.add(key);
+    reported.add(key);
   };
   const graph = new Graph(colorSpace, tell);
   for (const child of root.children)

@@ -122,7 +122,7 @@ export function defaultParameters(): OpenPbrParameters {
 
 /**
  * Fills missing parameters with the specification's defaults and clamps the rest to their hard ranges, silently. Use
- * {@link validateParameters} where a person should hear about it.
+ * {@link validateParameters}, for messages to a person.
  *
  * @throws {OpenPbrError} `openpbr/parameter-type`
  */

@@ -19,9 +19,8 @@ export interface OpenPbrFlags {
   /** Interfaces seen from their denser side: OPENPBR_TRANSMISSION, or an index of refraction below 1. */
   readonly OPENPBR_INNER: boolean;
   /**
-   * From their denser side interfaces are summed over facets where the tables are too coarse: over something opaque
-   * that is or may be of a lower index than what it lies in, and for what is clear near the index of that; comes with
-   * OPENPBR_INNER.
+   * From their denser side, interfaces are summed over facets where the tables are too coarse: above something opaque
+   * of a lower index, and for clear materials near the index of the outside. Comes with OPENPBR_INNER.
    */
   readonly OPENPBR_INNER_SUMS: boolean;
   /**

@@ -59,7 +59,7 @@ export const openpbr: WgslModule = bsdf;
  *
  * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness
  * that reflects the same share of the light (the slope across the view counts the more, the lower the view), about, and
- * `openpbr_mirror_cosine` the view that has the same masking. They are exact for round highlights.
+ * `openpbr_conductor_cosine` the view that has the same masking. They are exact for round highlights.
  */
 export const openpbrGgx: WgslModule = ggx;
 
@@ -76,17 +76,17 @@ export const openpbrFresnelDielectric: WgslModule = fresnelDielectric;
 export const openpbrFresnelMetal: WgslModule = fresnelMetal;
 
 /**
- * What fills the inside of a transparent object, in the units of its parameters (1 / length), and its index of
- * refraction by wavelength:
+ * The interior of a transparent object, in the units of its parameters (1 / length), and its index of refraction by
+ * wavelength:
  *
  * ```wgsl
  * fn openpbr_medium(p: OpenPbrParameters) -> OpenPbrMedium                  // all zero for thin walls and for depth 0
  * fn openpbr_dispersed_ior(p: OpenPbrParameters, wavelength_nm: f32) -> f32 // put it into p.specular_ior
  * ```
  *
- * Extinction is that which turns white into `transmission_color` at `transmission_depth`; where the scattering asked
- * for is more than that, all channels get as much more extinction as the one that lacks the most (OpenPBR 1.1).
- * Dispersion is Cauchy's n = A + B / λ² through the index at 587.6 nm, with the Abbe number over the dispersion scale.
+ * Extinction turns white into `transmission_color` at `transmission_depth`. Where the requested scattering exceeds it,
+ * the extinction of all channels rises by as much as the channel needs that lacks most (OpenPBR 1.1). Dispersion is
+ * Cauchy's n = A + B / λ² through the index at 587.6 nm, with the Abbe number over the dispersion scale.
  */
 export const openpbrMedium: WgslModule = medium;
 
@@ -122,9 +122,8 @@ export const openpbrMetal: WgslModule = metal;
  * `openpbr_dielectric_epsilon` is (η - 1)/(η + 1) of the changed index: its square is the reflectance at normal
  * incidence, so specular_weight simply scales that square. The reflection's tint leaves the energy balance alone.
  *
- * What single scattering loses has bounced among the facets and forgotten where it came from: it leaves in all
- * directions, a part of it upwards (openpbr_energy_bounce), the rest downwards. The lobes of single scattering are the
- * textbook's.
+ * Light that single scattering loses leaves in all directions after more bounces between facets: a part of it upwards
+ * (openpbr_energy_bounce), the rest downwards.
  */
 export const openpbrDielectric: WgslModule = dielectric;
 
@@ -144,14 +143,14 @@ export const openpbrDielectric: WgslModule = dielectric;
 export const openpbrTransmission: WgslModule = transmission;
 
 /**
- * What lies below a translucent surface: `openpbr_subsurface_medium(p) -> OpenPbrMedium`, the medium to walk in once a
+ * The medium below a translucent surface: `openpbr_subsurface_medium(p) -> OpenPbrMedium`, for random walks after a
  * sample has entered it (`OpenPbrSample.subsurface`), through the same rough interface as into glass.
  *
- * `subsurface_color` is what comes back of the light that got in. The single-scattering albedo that does so is van de
- * Hulst's for a half space (d'Eon, A Hitchhiker's Guide to Multiple Scattering), of the colour corrected for what the
- * interface reflects back inside (Saunderson 1942).
+ * `subsurface_color` is the albedo of the subsurface for light that has entered it. The single-scattering albedo
+ * follows by van de Hulst's inversion for a half space (d'Eon, A Hitchhiker's Guide to Multiple Scattering), after
+ * correcting the colour for internal reflection by the interface (Saunderson 1942).
  *
- * A thin wall has no inside: its subsurface reflects and transmits like paper, in parts given by the anisotropy.
+ * A thin wall has no interior: its subsurface reflects and transmits diffusely, like paper, split by the anisotropy.
  */
 export const openpbrSubsurface: WgslModule = subsurface;
 
@@ -169,25 +168,23 @@ export const openpbrFilm: WgslModule = film;
 
 /**
  * Fuzz: a layer of fibres over everything else (Zeltner, Burley and Chiang 2022). Its reflection is a linearly
- * transformed cosine towards the viewer, of two numbers and an energy from the two-dimensional table
- * (scripts/sheen.mjs); what lies below gets what it does not reflect, in grey. It depends on the viewer, and is not
- * reciprocal.
+ * transformed cosine towards the viewer, of two numbers and an albedo from the two-dimensional table
+ * (scripts/sheen.mjs); the layers below get the rest, without a tint. It depends on the viewer, and is not reciprocal.
  */
 export const openpbrFuzz: WgslModule = fuzz;
 
 /**
  * The coat: a clear or tinted dielectric layer over everything else, in the frame of the base or, with
  * OPENPBR_COAT_FRAME, in one of its own, given by geometry_coat_normal and geometry_coat_tangent in the frame of the
- * base. Its reflection is that of an interface (`openpbrDielectric`); what lies below is the base with other parameters
- * (`openpbr_coat_base`), times `openpbr_coat_pass`. Formulas of the specification, with these choices where it leaves
- * one:
+ * base. Its reflection is that of an interface (`openpbrDielectric`); below it is the base with other parameters
+ * (`openpbr_coat_base`), times `openpbr_coat_pass`. It follows the specification, with these choices where that leaves
+ * room:
  *
  * - The base becomes rougher as proposed for the specification's next version: refraction widens the base's highlight,
  *   a rough coat blurs it. It is never made smoother.
- * - Darkening by reflections inside the coat takes the roughness of the base as seen through the coat, and of a rough
- *   coat the facets that are typically seen; the coat's colour does not count at every bounce, only once.
- * - What the coat lets through is 1 less its albedo towards the viewer: no energy is made, but the whole is not
- *   reciprocal.
+ * - Darkening by reflections inside the coat uses the roughness of the base as seen through the coat, and for a rough
+ *   coat the typical visible facet; the coat's colour counts once, not at every bounce.
+ * - The coat transmits 1 less its albedo towards the viewer: energy is conserved, but the whole is not reciprocal.
  */
 export const openpbrCoat: WgslModule = coat;
 
@@ -199,8 +196,8 @@ export const openpbrCoat: WgslModule = coat;
 export const openpbrEnergy: WgslModule = energy;
 
 /**
- * `openpbr_emission(p, wo)`: radiance that leaves towards `wo`: the same in all directions of the upper side, but for
- * what a coat and fuzz keep back.
+ * `openpbr_emission(p, wo)`: radiance that leaves towards `wo`: the same in all directions of the upper side, reduced
+ * by coat and fuzz.
  */
 export const openpbrEmission: WgslModule = emission;
 

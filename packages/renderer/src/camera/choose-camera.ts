@@ -23,7 +23,7 @@ export function* cameraSteps(
 }
 
 /**
- * As {@link cameraSteps}, of a camera that is given: nothing is gone through.
+ * As {@link cameraSteps}, of a camera that is given: nothing is scanned.
  * @throws {RenderError} `renderer/camera`
  */
 export function chooseCamera(scene: Scene, camera: Camera | number | string, aspect: number): Camera {

@@ -7,10 +7,10 @@ import type { Geometry } from '../geometry/geometry';
 import { determinant3, transformPoint } from '../geometry/matrix';
 
 /**
- * What lies under a point of the film, through the middle of the lens. Textured opacity is not looked at: a hole in a
- * leaf still picks the leaf.
+ * The surface under a point of the film, through the middle of the lens. Textured opacity is ignored: a hole in a leaf
+ * still picks the leaf.
  *
- * @param culls Whether a material's back faces are looked through; without it, none are.
+ * @param culls Whether a material's back faces are invisible; default: none are.
  */
 export function pickPixel(
   scene: Scene,

@@ -79,7 +79,7 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
   }
 }
 
-/** WebGPU's classes of errors are not global everywhere: they are told apart by their names. */
+/** By name, since not every environment has WebGPU's error classes as globals. */
 function uncaptured(error: GPUError): DeviceError {
   const memory = error.constructor.name === 'GPUOutOfMemoryError';
   return new DeviceError(

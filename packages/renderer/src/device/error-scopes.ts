@@ -15,8 +15,8 @@ export interface Scoped<T> {
 }
 
 /**
- * Runs calls to the GPU inside error scopes, so that what it refuses is reported here, and never to the host's
- * `uncapturederror` listeners.
+ * Runs calls to the GPU inside error scopes, so that errors are reported here and not to the host's `uncapturederror`
+ * listeners.
  *
  * @param what Completes "The GPU has not enough memory for …".
  * @throws What `run` throws; the errors of the GPU are those of {@link Scoped.verified}.

@@ -34,7 +34,7 @@ const MAX_CELLS = [1024, 512] as const;
 
 const luminance = (r: number, g: number, b: number) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
-/** Rows of this many pixels together are gone through between two stops: a millisecond or so. */
+/** Pixels that are processed between two yields: about a millisecond. */
 const STEP = 1 << 15;
 
 /** Prepares an environment for the GPU. A constant one needs no table: BSDF sampling finds it everywhere. */

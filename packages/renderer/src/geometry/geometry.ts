@@ -232,7 +232,7 @@ export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice>
     if (bytes > 0) yield { buffer, offset, data: memory.subarray(0, bytes) };
 }
 
-/** Writes shapes for the GPU, with the thread handed back now and then. */
+/** Writes shapes for the GPU, yielding to the event loop now and then. */
 export async function packGeometry(scene: Scene, geometry: Geometry, signal?: AbortSignal): Promise<PackedGeometry> {
   const packed = {
     nodes: new Float32Array(geometry.nodeCount * NODE_WORDS),

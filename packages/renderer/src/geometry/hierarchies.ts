@@ -9,7 +9,7 @@ export interface HierarchyBuilder {
   /**
    * Asked for every mesh in use at once, the largest first.
    *
-   * @param mesh Stays as it is until the promise settles; not to be changed or handed over.
+   * @param mesh Stays as it is until the promise settles; not to be changed or transferred.
    * @param options `signal` aborts when the scene is no longer wanted or another build has failed; `onProgress` takes
    * the share of this mesh that is done, 0..1.
    * @returns What `buildBlas` of `@glanz/bvh` gives.
@@ -45,7 +45,7 @@ export function createYielder(sliceMs: number = SLICE_MS): () => Promise<void> {
 }
 
 /**
- * The hierarchies of the meshes, in their order. Without a builder they are built here, with the thread handed back in
+ * The hierarchies of the meshes, in their order. Without a builder they are built here, yielding to the event loop in
  * between.
  */
 export async function buildHierarchies(

@@ -149,14 +149,14 @@ export class Integrator {
   }
 
   /**
-   * Does what the first batch wants of a kernel ahead of it, while others still compile: binds it, and with one of
-   * those that come early lets the browser make what it checks indirect dispatches with.
+   * Does what the first batch would do with a kernel, while others still compile: makes its bind groups, and with an
+   * early kernel lets the browser build its validation of indirect dispatches.
    */
-  rehearse(name: KernelName, kernel: Kernel): void {
+  prewarm(name: KernelName, kernel: Kernel): void {
     this.#groupsOf(kernel);
-    // The sizes are all zeroes yet: nothing runs.
+    // The dispatch sizes are still 0: nothing runs.
     if (name === 'generate' && this.#counted)
-      this.#pass('glanz rehearsal', (pass) => this.#run(pass, kernel, { indirect: 0 }));
+      this.#pass('glanz prewarm', (pass) => this.#run(pass, kernel, { indirect: 0 }));
   }
 
   /** The kernels are there, for the features that it was made with. */

@@ -9,15 +9,15 @@ export interface KernelSet {
 /** Compiled when they are first asked for. */
 const ON_DEMAND: ReadonlySet<KernelName> = new Set(['relight', 'noise', 'first']);
 
-/** Told how far kernels are, 0..1, and which of them has come last. */
-type Hear = (done: number, name?: KernelName, kernel?: Kernel) => void;
+/** Called with how far the kernels are, 0..1, and the one that was compiled last. */
+type ProgressListener = (done: number, name?: KernelName, kernel?: Kernel) => void;
 
-/** Kernels that are there or under way, with those who want to hear how far they are. */
+/** Kernels that are compiled or being compiled, and the listeners to their progress. */
 interface Compilation {
   readonly set: Promise<KernelSet>;
   readonly count: number;
   readonly ready: Map<KernelName, Kernel>;
-  readonly heard: Set<Hear>;
+  readonly listeners: Set<ProgressListener>;
 }
 
 const cachesOf = new WeakMap<
@@ -42,26 +42,26 @@ export class KernelCache {
   }
 
   /**
-   * All kernels of the main loop, compiled side by side.
-   * @param hear Told how far they are, 1 at the end, and each one as it comes, also where another caller asked for them first.
+   * All kernels of the main loop, compiled in parallel.
+   * @param onProgress Called for each kernel that is ready, also where another caller requested them first; ends at 1.
    */
-  async get(features: KernelFeatures, hear?: Hear): Promise<KernelSet> {
+  async get(features: KernelFeatures, onProgress?: ProgressListener): Promise<KernelSet> {
     const key = JSON.stringify(features);
     let compilation = this.#sets.get(key);
     if (!compilation) {
       this.#sets.set(key, (compilation = this.#compile(features)));
       compilation.set.catch(() => this.#sets.delete(key));
     }
-    if (!hear) return compilation.set;
-    const { ready, count, heard, set } = compilation;
-    if (ready.size === 0) hear(0);
+    if (!onProgress) return compilation.set;
+    const { ready, count, listeners, set } = compilation;
+    if (ready.size === 0) onProgress(0);
     let done = 0;
-    for (const [name, kernel] of ready) hear(++done / count, name, kernel);
-    heard.add(hear);
+    for (const [name, kernel] of ready) onProgress(++done / count, name, kernel);
+    listeners.add(onProgress);
     try {
       return await set;
     } finally {
-      heard.delete(hear);
+      listeners.delete(onProgress);
     }
   }
 
@@ -73,18 +73,18 @@ export class KernelCache {
         (name !== 'aov' || features.flags.AOVS === true) &&
         (name !== 'aov_ids' || features.flags.AOV_IDS === true),
     );
-    const heard = new Set<Hear>();
+    const listeners = new Set<ProgressListener>();
     const ready = new Map<KernelName, Kernel>();
     const compile = async (name: KernelName) => {
       const kernel = await this.kernel(name, features);
       ready.set(name, kernel);
-      for (const hear of heard) hear(ready.size / names.length, name, kernel);
+      for (const listener of listeners) listener(ready.size / names.length, name, kernel);
     };
     const set = Promise.all(names.map(compile)).then(() => ({
       features,
       kernels: Object.fromEntries(ready) as KernelSet['kernels'],
     }));
-    return { set, count: names.length, ready, heard };
+    return { set, count: names.length, ready, listeners };
   }
 
   /** One kernel. */
@@ -94,7 +94,7 @@ export class KernelCache {
   }
 }
 
-/** A failed attempt is forgotten, so that it can be made again. */
+/** Failures are not kept: the next call tries again. */
 function remember<T>(map: Map<string, Promise<T>>, key: string, make: () => Promise<T>): Promise<T> {
   let found = map.get(key);
   if (!found) {

@@ -31,7 +31,7 @@ import {
 } from '../storage/resources';
 import resolve from '../film/resolve.wesl';
 import shade from './shade.wesl';
-import straight from '../materials/straight.wesl';
+import deltaTransmission from '../materials/delta_transmission.wesl';
 import { materialCases } from '../materials/material-cases';
 import surface from '../materials/surface.wesl';
 import traversal from '../geometry/traversal.wesl';
@@ -52,8 +52,8 @@ const HARMLESS =
   /^(OPENPBR_|OPACITY$|CULLING$|CULLING_ALL$|VERTEX_COLORS$|EMISSION_TEXTURES$|LIGHTS$|LIGHT_TREE$|LIGHT_PROFILES$|AREA_LIGHTS$|NEXT_EVENT$|DISPERSION$|TERMINATOR_LIFT$)/;
 
 /**
- * Whether kernels for `present` features are right for `wanted` ones too: what a scene no longer has may stay in their
- * text, so that a coat that comes and goes compiles once.
+ * Whether kernels for `present` features render `wanted` ones too: they may contain features that the scene no longer
+ * has, so that a coat that comes and goes is compiled once.
  */
 export function serves(present: KernelFeatures, wanted: KernelFeatures): boolean {
   const { flags: has, ...given } = present;
@@ -93,7 +93,7 @@ export interface Kernel {
 interface KernelText {
   /** The module with the entry point. */
   readonly root: WgslModule;
-  /** What depends on the scene and supplies the root with what its `host.wesl` files declare. */
+  /** The modules that depend on the scene and define what the `host.wesl` files declare. */
   readonly host?: readonly (WgslModule | false | undefined)[];
   readonly resources: readonly ResourceName[];
   readonly textures: boolean;
@@ -168,7 +168,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'connect': {
       // Light meets all faces that are there for others than the camera alone.
       const shadowFlags = { ...flags, CULLING: flags.CULLING_ALL === true };
-      const walls: ResourceName[] = flags.STRAIGHT ? ['frame', 'attributes', ...energy] : [];
+      const walls: ResourceName[] = flags.DELTA_TRANSMISSION ? ['frame', 'attributes', ...energy] : [];
       const resources = [
         ...new Set([
           ...filter,
@@ -184,10 +184,10 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           path,
           ...query(flags.NULL_SURFACES ? bvhClosestHit : bvhAnyHit, shadowFlags),
           ...(flags.NULL_SURFACES ? [...interiors, mediaFront] : []),
-          ...(flags.STRAIGHT ? [straight, ...surfaces] : []),
+          ...(flags.DELTA_TRANSMISSION ? [deltaTransmission, ...surfaces] : []),
         ],
         resources: [...resources, 'paths', 'queues', 'shadows', 'nodes', 'triangles', 'instances'],
-        textures: flags.OPACITY === true || flags.STRAIGHT === true,
+        textures: flags.OPACITY === true || flags.DELTA_TRANSMISSION === true,
         flags: shadowFlags,
       };
     }

@@ -5,7 +5,7 @@ import type { LightGroupMode } from '../options';
 import { emittedRadiance } from '../materials/materials';
 import { parametersOf } from '../materials/parameters';
 
-/** What has no group of its own. */
+/** The group of everything that names none. */
 const REST = 'rest';
 
 /** The light groups of a scene: names, and which light belongs where. */

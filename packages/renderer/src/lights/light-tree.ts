@@ -47,7 +47,7 @@ export interface LightTree {
 
 const BINS = 12;
 
-/** Lights that are gone through between two stops, once for each level. */
+/** Lights of a level that are processed between two yields. */
 const STEP_LIGHTS = 4096;
 
 /** A trail has 32 bits. */

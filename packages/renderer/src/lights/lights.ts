@@ -71,7 +71,7 @@ interface Emitter {
   readonly triangles: number;
 }
 
-/** All that can be told of a scene's lights before its shapes have their places: {@link placingSteps} adds the rest. */
+/** What follows from the lights before shapes have their places; {@link placingSteps} adds the rest. */
 export interface GatheredLights {
   /** As `LightTable.records`, without what names shapes, and without chances. */
   readonly records: ArrayBuffer;
@@ -160,11 +160,11 @@ export function* lightSteps(
 }
 
 /**
- * Makes the table, in the memory of what was gathered.
+ * Builds the table, in place.
  *
  * @param sceneRadius Radius of the scene's bounding sphere, metres, to weigh directional lights.
- * @param ids Keeps what it has named for the next table.
- * @returns Undefined where something glows that has no place after all: to be gathered without it.
+ * @param ids Keeps the ids it has given for the next table.
+ * @returns Undefined where an emitter has no place after all: gather the lights again without it.
  */
 export function* placingSteps(
   scene: Scene,

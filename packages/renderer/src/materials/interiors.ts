@@ -15,7 +15,7 @@ function scatters(material: Material): boolean {
   return hasInterior(material) && (milky || p.subsurface_weight > 0);
 }
 
-/** Whether the material's surface is none: all light passes, unbent and untinted, where there is air around. */
+/** Whether the surface is a null interface where air surrounds it: all light passes, without refraction or tint. */
 export function isIndexMatched(material: Material): boolean {
   const p = parametersOf(material);
   const matched = p.specular_weight === 0 || p.specular_ior === 1;
@@ -33,8 +33,8 @@ export function isDispersive(material: Material): boolean {
 /** Below this roughness lobes are as narrow as they get. */
 const SMOOTH = 0.01;
 
-/** Whether light that goes through the surface goes straight on: a smooth thin wall that scatters nothing. */
-export function isStraight(material: Material): boolean {
+/** Whether the surface transmits without a change of direction: a smooth thin wall that scatters nothing. */
+export function transmitsByDelta(material: Material): boolean {
   const p = parametersOf(material);
   const { textures } = material;
   // Textures only lower a roughness.
@@ -47,18 +47,18 @@ export function isStraight(material: Material): boolean {
   );
 }
 
-/** What about the interiors of a scene's materials decides the kernels' text. */
+/** The flags of the kernels that depend on the interiors of a scene's materials. */
 export function interiorFlags(
   materials: readonly Material[],
-): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH' | 'DISPERSION' | 'STRAIGHT', boolean> {
+): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH' | 'DISPERSION' | 'DELTA_TRANSMISSION', boolean> {
   const interiors = materials.filter(hasInterior);
   const scattering = interiors.some(scatters);
   const priorities = new Set(interiors.map((material) => material.dielectric_priority ?? 0));
-  const straight = materials.some(isStraight);
-  const nothing = interiors.some(isIndexMatched) || priorities.size > 1 || straight;
+  const delta = materials.some(transmitsByDelta);
+  const nothing = interiors.some(isIndexMatched) || priorities.size > 1 || delta;
   return {
-    MEDIA: interiors.length > 0 || straight,
-    STRAIGHT: straight,
+    MEDIA: interiors.length > 0 || delta,
+    DELTA_TRANSMISSION: delta,
     SCATTERING: scattering,
     NULL_SURFACES: nothing,
     PATH_DEPTH: scattering || nothing,

@@ -11,11 +11,11 @@ import {
   MATERIAL_MASK,
   MATERIAL_OPAQUE,
   MATERIAL_PRIORITY_SHIFT,
-  MATERIAL_STRAIGHT,
+  MATERIAL_DELTA_TRANSMISSION,
   MATERIAL_TWO_SIDED_EMISSION,
   materialStruct,
 } from '../storage/layout';
-import { hasInterior, isDispersive, isIndexMatched, isStraight } from './interiors';
+import { hasInterior, isDispersive, isIndexMatched, transmitsByDelta } from './interiors';
 import { parametersOf } from './parameters';
 import type { TexturePlan } from './textures';
 
@@ -170,7 +170,7 @@ export function packMaterial(
       (mask ? MATERIAL_MASK : 0) |
       (hasInterior(material) ? MATERIAL_INTERIOR : 0) |
       (isIndexMatched(material) ? MATERIAL_INDEX_MATCHED : 0) |
-      (isStraight(material) ? MATERIAL_STRAIGHT : 0) |
+      (transmitsByDelta(material) ? MATERIAL_DELTA_TRANSMISSION : 0) |
       (isDispersive(material) ? MATERIAL_DISPERSIVE : 0) |
       (culled ? MATERIAL_CULLED : 0) |
       ((material.dielectric_priority ?? 0) << MATERIAL_PRIORITY_SHIFT) |

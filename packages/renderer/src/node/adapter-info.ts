@@ -22,7 +22,7 @@ export function lavapipeVersion(info: GPUAdapterInfo): number | undefined {
   return version === undefined ? undefined : Number(version);
 }
 
-/** What Dawn says when no adapter has the wanted name: one line for each that there is. */
+/** Dawn's message when no adapter has the requested name: one line for each adapter. */
 const LISTED = /backend: '([^']*)', name: '(.*)'$/;
 
 /** Reads the adapters out of the message that Dawn gives for an unknown name. */

@@ -19,8 +19,8 @@ export interface GpuOptions {
   /** Part of the name of the adapter to use, ignoring case; see {@link listGpus}. Default: the fastest there is. */
   readonly gpu?: string;
   /**
-   * Whether a GPU that the CPU imitates will do: `auto`, the default, takes one if there is no real one; `only` wants
-   * one, for reproducible tests; `never` fails without a real GPU.
+   * Whether to use a software adapter: `auto`, the default, takes one if there is no GPU; `only` always does, for
+   * reproducible tests; `never` fails without a GPU.
    */
   readonly software?: 'auto' | 'only' | 'never';
 }

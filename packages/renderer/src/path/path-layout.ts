@@ -55,7 +55,7 @@ const INTERIOR = {
   media: 'vec2u',
   /** Low half: edges so far; high half: scattering events in media. */
   counters: 'u32',
-  /** Metres from the last vertex to the origin, past surfaces that are not there. */
+  /** Metres from the last vertex to the origin, past null interfaces. */
   travelled: 'f32',
   /** Nanometres, once dispersion has chosen one; 0 before. */
   wavelength: 'f32',

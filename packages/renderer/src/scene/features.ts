@@ -31,7 +31,7 @@ export interface SceneChoices {
   readonly backFaceCulling: BackFaceCulling;
 }
 
-/** What about a scene decides the kernels' text, once its parts have been gone through. */
+/** The properties of a scene that decide which kernels it needs. */
 export interface SceneFacts {
   readonly textured: readonly TexturedParameterInfo[];
   readonly plan: TexturePlan;

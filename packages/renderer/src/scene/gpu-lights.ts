@@ -57,7 +57,7 @@ export class GpuLights {
   /**
    * Finds the lights for the first time, and makes the buffer for their records, still empty.
    * @param gathered As `lightSteps()` has found them, whose memory is used; else they are found here, in one go.
-   * @param sliceMs The thread is handed back after so many milliseconds.
+   * @param sliceMs Yields to the event loop after so many milliseconds.
    */
   async gather(geometry: Geometry, gathered: GatheredLights | undefined, sliceMs: number): Promise<void> {
     const { radius } = geometry.placement;

@@ -34,7 +34,7 @@ import { uploadTextures } from '../materials/texture-upload';
 import { GpuLights } from './gpu-lights';
 import { GpuMaterials } from './gpu-materials';
 
-/** While shapes are filled in, the thread is handed back after so many milliseconds; a slice more can follow. */
+/** Milliseconds of writing shapes between two yields to the event loop. */
 const FILL_MS = 4;
 /** Lights are written so many bytes at a time. */
 const FILL_BYTES = 1 << 20;
@@ -198,7 +198,7 @@ export class GpuScene {
 
   /**
    * Re-reads one material of the scene. Returns true if bindings were replaced.
-   * @param emission Whether what it emits may have changed: only then the lights are gone through.
+   * @param emission Whether what it emits may have changed: only then the lights are built again.
    */
   updateMaterial(index: number, emission: boolean): boolean {
     this.#features = undefined;
@@ -313,7 +313,7 @@ export class GpuScene {
     this.#materials.make(attributeWords);
   }
 
-  /** Writes the shapes, with the thread handed back every few milliseconds. */
+  /** Writes the shapes, yielding to the event loop every few milliseconds. */
   async fill(signal?: AbortSignal): Promise<void> {
     const yieldIfDue = createYielder(FILL_MS);
     const written: Promise<void>[] = [];
@@ -341,7 +341,7 @@ export class GpuScene {
   }
 
   /**
-   * Adds what lights the scene, with the thread handed back every few milliseconds.
+   * Adds lights and environment, yielding to the event loop every few milliseconds.
    * @param gathered The lights, as `lightSteps()` has found them, whose memory is used; else they are found here, in
    * one go.
    */

@@ -93,7 +93,7 @@ export class SceneEditor {
       const glowed = glows();
       material.parameters = next;
       const { placement, blas } = this.#geometry;
-      // What begins or ceases to glow belongs to what is seen beside catchers, or no longer.
+      // Emitters are visible beside catchers: the set of visible objects changes when one is switched.
       if (placement.bare && glows() !== glowed)
         placement.update(
           this.scene,

@@ -8,8 +8,8 @@ const SPREAD = 1.5;
 const MAX_FIXED = 0.9;
 
 /**
- * What work on the GPU costs, learnt from the times of pieces of different sizes: `fixed + size × cost of a unit`.
- * Units are the caller's: paths of a batch, pixels × samples of a frame. A pure function of what it is given.
+ * Predicts the cost of work on the GPU from measured pieces of different sizes: `fixed + size × cost of a unit`. The
+ * caller chooses the unit: paths of a batch, pixels × samples of a frame. Deterministic in its inputs.
  */
 export class CostModel {
   #fixed: number | undefined;

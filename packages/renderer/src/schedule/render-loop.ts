@@ -8,7 +8,7 @@ export interface RenderLoop {
   readonly queue: GPUQueue;
   /** Submits a batch. The promise rejects if the GPU refuses it. */
   readonly submit: (batch: Batch) => Promise<void>;
-  /** Paths that there is memory for, when a batch could hold so many: asks for more memory where that is more. */
+  /** The number of paths in memory; allocates more where a batch of so many could use them. */
   readonly room: (paths: number) => number;
   /** Settles when batches may be submitted again; `undefined`: now. */
   readonly ready: () => Promise<void> | undefined;

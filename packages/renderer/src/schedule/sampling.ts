@@ -40,7 +40,7 @@ export interface SamplingGoal {
   readonly current: () => boolean;
 }
 
-/** What a `render()` knows of its own speed. */
+/** The measured speed of a `render()`. */
 interface Pace {
   readonly start: number;
   /** Paths so far. */
@@ -51,9 +51,9 @@ interface Pace {
 }
 
 /**
- * How far a film has come: which tiles have how many samples, and what comes next. Tiles with equally many samples are
- * taken together, those with the fewest first, so a film that was sampled unevenly can be evened out or driven further.
- * What a pixel is given depends on what is asked for and on the film, never on time.
+ * The progress of a film: which tiles have how many samples, and the next batch. Tiles with equally many samples are
+ * taken together, those with the fewest first, so that an unevenly sampled film can be evened out or continued. The
+ * samples of a pixel depend on the request and the film, never on time.
  */
 export class Sampling {
   readonly #host: SamplingHost;

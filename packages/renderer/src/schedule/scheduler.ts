@@ -21,8 +21,8 @@ export interface SchedulerOptions {
 const SMALLEST = 4096;
 
 /**
- * Cuts the work into submissions by measured time: grows up to fourfold while there is room in the budget, falls back
- * to a quarter when one took too long. What is computed does not depend on the cuts.
+ * Splits the work into submissions by measured time: grows up to fourfold while the budget allows, falls back to a
+ * quarter after one that took too long. The image does not depend on the split.
  */
 export class Scheduler {
   /** Pixels of the image, or of the part of it that is worked on. */

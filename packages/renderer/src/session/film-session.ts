@@ -36,7 +36,7 @@ export interface FilmHost {
   readonly fingerprint: () => string;
   /** Throws if the tracer was destroyed or its device lost. */
   readonly check: () => void;
-  /** Settles when the edit that the GPU is looking at is in place or undone; `undefined`: there is none. */
+  /** Settles when the pending edit is in place or undone; `undefined`: none is pending. */
   readonly ready: () => Promise<void> | undefined;
 }
 
@@ -144,7 +144,7 @@ export class FilmSession {
     this.#cleared = verified;
   }
 
-  /** What the GPU refuses leaves a film that is not what it should be: the next render begins again. */
+  /** After a refused batch samples are missing: the next render begins again. */
   #watch(verified: Promise<void>): void {
     const generation = this.#generation;
     verified.catch(() => {
@@ -173,7 +173,7 @@ export class FilmSession {
     this.#host.integrator.rebind('film');
   }
 
-  /** Puts another film in place of the one there is, which is freed. */
+  /** Replaces the film and frees the old one. */
   replace(film: Film): void {
     this.#film.destroy();
     this.#film = film;

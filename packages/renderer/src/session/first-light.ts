@@ -30,7 +30,7 @@ export interface FirstLightSource {
 }
 
 /**
- * Draws the scene with the first-light kernel, as soon as its shapes are there, and hands the image over, unless
+ * Draws the scene with the first-light kernel, as soon as its shapes are there, and passes the image on, unless
  * `late` says that there is something better by then.
  *
  * @returns Frees the image; to be called when the tracer is there.

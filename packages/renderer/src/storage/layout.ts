@@ -93,7 +93,7 @@ const SHADOW = {
   group: 'u32',
 } as const;
 
-/** The interiors that a light sample starts in, where it may pass surfaces that are not there. */
+/** The interiors that a light sample starts in, where it may pass null interfaces. */
 const MEDIA_SHADOW = { ...SHADOW, media: 'vec2u' } as const;
 
 /** Light samples waiting for their visibility: `shadow_load` and `shadow_store` of a `Shadow`. */
@@ -156,12 +156,12 @@ export const MATERIAL_EMISSIVE = 4;
 export const MATERIAL_MASK = 8;
 /** Light may go through its surface into an inside. */
 export const MATERIAL_INTERIOR = 16;
-/** Its interior has air's index of refraction: in air, the surface is not there. */
+/** Its interior has air's index of refraction: in air, it is a null interface. */
 export const MATERIAL_INDEX_MATCHED = 32;
 /** Its index of refraction varies with the wavelength. */
 export const MATERIAL_DISPERSIVE = 64;
-/** A smooth thin wall: what goes through goes straight on. */
-export const MATERIAL_STRAIGHT = 128;
+/** A smooth thin wall: light passes it without a change of direction. */
+export const MATERIAL_DELTA_TRANSMISSION = 128;
 /** Bits 8 to 15 of a material's flags: its priority where interiors overlap. */
 export const MATERIAL_PRIORITY_SHIFT = 8;
 /** The camera does not see its back faces. */

@@ -45,7 +45,7 @@ export class SceneResources {
     return this.#textures.get(name);
   }
 
-  /** Makes a storage buffer of this name, in place of the one there is. */
+  /** Creates a storage buffer of this name and replaces the present one. */
   make(name: ResourceName, bytes: number): GPUBuffer {
     const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST);
     this.#replace(this.#buffers, name, buffer);
@@ -64,7 +64,7 @@ export class SceneResources {
     this.#memory.write(this.#buffers.get(name) as GPUBuffer, data, offset);
   }
 
-  /** Makes a texture of this name, still empty, in place of the one there is. */
+  /** Creates an empty texture of this name and replaces the present one. */
   makeTexture(
     name: ResourceName,
     descriptor: Omit<GPUTextureDescriptor, 'label' | 'usage'>,

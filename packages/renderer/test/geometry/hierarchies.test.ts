@@ -51,13 +51,13 @@ function lateBuilder() {
 describe('hierarchies built elsewhere', () => {
   it('give the same geometry as those built here, whatever the order they come in', async () => {
     const { asked, hierarchies } = lateBuilder();
-    const told: number[] = [];
-    const pending = prepareGeometry(scene, { hierarchies, onProgress: (done) => told.push(done) });
+    const reported: number[] = [];
+    const pending = prepareGeometry(scene, { hierarchies, onProgress: (done) => reported.push(done) });
     expect(asked.map(({ triangles }) => triangles)).toEqual([400, 20, 3]);
     asked[0]?.onProgress(0.5);
     for (const { answer } of asked.toReversed()) answer();
     expect(await pending).toEqual(await prepareGeometry(scene));
-    expect(told).toEqual([200 / 423, 203 / 423, 223 / 423, 1].map((share) => expect.closeTo(share, 12)));
+    expect(reported).toEqual([200 / 423, 203 / 423, 223 / 423, 1].map((share) => expect.closeTo(share, 12)));
   });
 
   it('abort the rest when one fails', async () => {

@@ -294,7 +294,7 @@ describe('with "all" the model is cut open', () => {
     expect(red(await beauty(scene, { ...open, camera: { ...camera, transform: lying(1) } }))).toBe(0);
   });
 
-  it('and so does the light of the surroundings, by whatever way it is found', async () => {
+  it('and so does the light of the environment, by whatever way it is found', async () => {
     const scene = storey(lambert(1));
     scene.environment = even;
     const sampled = await beauty(scene, open, 64);

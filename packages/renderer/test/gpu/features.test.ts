@@ -42,8 +42,8 @@ const latlong = (intensity: number): Environment => ({
 
 const SCENES: readonly (readonly [string, (scene: Scene) => void])[] = [
   ['nothing but a matt surface', () => {}],
-  ['surroundings', (scene) => (scene.environment = latlong(1))],
-  ['a dark image of surroundings', (scene) => (scene.environment = latlong(0))],
+  ['an environment', (scene) => (scene.environment = latlong(1))],
+  ['a dark environment image', (scene) => (scene.environment = latlong(0))],
   [
     'a lamp of each kind',
     (scene) =>

@@ -42,7 +42,7 @@ it('shows base colours and the background while the kernels compile, and is gone
   expect(shown).toHaveLength(1);
   expect([kept!.width, kept!.height]).toEqual([17, 17]);
   const pixels = await shown[0]!;
-  // Face to face with the lamp a facet is as bright as in even surroundings; the background is as they are.
+  // Facing the light, a facet is as bright as in a constant environment; the background is that of the environment.
   meanOf(pixels, 17, 8, 8, 9, 9).forEach((value, k) => expect(value).toBeCloseTo(2 * [0.5, 0.25, 0.125][k]!, 3));
   meanOf(pixels, 17, 0, 0, 1, 1).forEach((value) => expect(value).toBeCloseTo(2, 5));
   for (let i = 3; i < pixels.length; i += 4) expect(pixels[i]).toBe(1);

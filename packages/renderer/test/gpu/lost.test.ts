@@ -9,7 +9,7 @@ beforeAll(async () => {
 });
 afterAll(() => expectNoGpuErrors());
 
-it('a device that is lost while a scene is prepared is told, though it says yes to everything', async () => {
+it('the loss of a device while a scene is prepared is reported, though no call fails', async () => {
   const gone = new Proxy(device, {
     get: (target, name) => {
       if (name === 'lost') return Promise.resolve({ reason: 'unknown', message: 'fell over' });

@@ -100,7 +100,7 @@ describe('a ball of few triangles with smooth normals', () => {
 
   it('gives the same by light samples as by BSDF samples', async () => {
     // A lamp large enough for both: a glowing wall at the side, as a triangle light (light samples and BSDF samples)
-    // and as a piece of constant surroundings seen through a hole (BSDF samples alone).
+    // and as a piece of a constant environment seen through a hole (BSDF samples alone).
     const lit = (emission: boolean) => {
       const scene = createScene();
       addSphere(scene, 0.8, [0, 0, 0], lambert(0.8), 16);

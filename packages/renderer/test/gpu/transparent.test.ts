@@ -48,7 +48,7 @@ describe('a transparent background', () => {
     ['smooth glass', glass(0)],
     ['rough glass', glass(0.4)],
     ['a thin wall', glass(0.2, true)],
-  ])('seen through %s: put over the surroundings it is the image with them', async (_, material) => {
+  ])('seen through %s: composited over the environment it is the image with it', async (_, material) => {
     const scene = createScene();
     addSphere(scene, 0.6, [0, 0, 0], material, 24);
     addQuad(scene, 0.3, -0.8, lambert(0.7, 0.2, 0.1), {
@@ -61,7 +61,7 @@ describe('a transparent background', () => {
     for (let i = 0; i < SIZE * SIZE; i++) {
       const alpha = clear[4 * i + 3] as number;
       if (alpha > 0.05 && alpha < 0.95) partial++;
-      // Colourless glass and even surroundings: path for path the same light, so only rounding differs.
+      // Colourless glass and a constant environment: path for path the same light, so only rounding differs.
       for (let c = 0; c < 3; c++)
         expect(
           Math.abs((clear[4 * i + c] as number) + (1 - alpha) * (SKY[c] as number) - (opaque[4 * i + c] as number)),

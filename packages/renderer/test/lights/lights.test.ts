@@ -68,7 +68,7 @@ describe('lights', () => {
     }
   });
 
-  it('what glows and has no place after all is told, and left out when it is built again', async () => {
+  it('emitters without a place are reported, and left out when it is built again', async () => {
     const scene = glowing();
     scene.instances[0]!.transform = FLAT;
     const { instanceSlots, radius } = (await prepareGeometry(scene)).placement;

@@ -66,8 +66,8 @@ describe('planTextures', () => {
         levels: [new Uint8Array(compressedBytes(width, height))],
       };
     }
-    const formats = (...told: Parameters<typeof planTextures>) =>
-      planTextures(...told).arrays.map(({ format, levels }) => [format, levels]);
+    const formats = (...given: Parameters<typeof planTextures>) =>
+      planTextures(...given).arrays.map(({ format, levels }) => [format, levels]);
     // 6 texels are no whole blocks.
     const packed = [
       ['bc7-rgba-unorm-srgb', 1],

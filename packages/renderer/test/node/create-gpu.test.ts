@@ -104,7 +104,7 @@ describe('createGpu', () => {
     expect(message).not.toContain('\n');
   });
 
-  it('does not settle for a software GPU when told so', async () => {
+  it('does not use a software adapter where the options forbid it', async () => {
     expect(await probe({ software: 'never' }, { VK_DRIVER_FILES: '/nowhere/icd.json' })).toMatchObject({
       code: 'renderer/no-adapter',
     });

@@ -122,8 +122,8 @@ describe('smooth thin walls', () => {
       expect(Math.abs(value - 1)).toBeLessThan(0.005);
   });
 
-  it('a matte ball under a dome of glass in bright surroundings: as if every pane were rough by a hair, with less noise', async () => {
-    // Surroundings with a small bright patch, which only light samples find well.
+  it('a matte ball under a dome of glass in a bright environment: as if every pane were rough by a hair, with less noise', async () => {
+    // An environment with a small bright patch, which only light samples find well.
     const [width, height] = [32, 16];
     const data = new Float32Array(width * height * 3).fill(0.2);
     data.fill(60, 3 * (2 * width + 8), 3 * (2 * width + 10));

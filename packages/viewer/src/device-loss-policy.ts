@@ -3,8 +3,8 @@ import { ViewerError } from './errors';
 const WINDOW_MS = 60_000;
 const MAX_LOSSES = 3;
 
-/** Counts lost devices, so that a GPU that always fails is not asked for ever. */
-export class Losses {
+/** Decides whether another device is requested after a loss: not where the GPU fails again and again. */
+export class DeviceLossPolicy {
   #times: number[] = [];
 
   /**
@@ -22,7 +22,8 @@ export class Losses {
     await new Promise((resolve) => setTimeout(resolve, 200 * this.#times.length ** 2));
   }
 
-  forgive(): void {
+  /** Forgets the losses so far. */
+  reset(): void {
     this.#times = [];
   }
 }

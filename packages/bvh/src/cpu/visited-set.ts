@@ -27,7 +27,7 @@ function repeatsBelow({ triangleIndices }: Blas): number {
  * Passes each triangle once a query, though it may be in several leaves. Serves any number of queries one after the
  * other and allocates only when a larger mesh comes.
  */
-export class Once {
+export class VisitedSet {
   #stamps = new Uint32Array(0);
   #stamp = 0;
   #instance = -1;
