@@ -19,6 +19,8 @@ export interface Faults {
   readonly onSubmit?: (device: FaultyDevice) => void;
   /** Called before each copy of a film to the CPU and after it. */
   readonly onSave?: (device: FaultyDevice, film?: FilmState) => void;
+  /** Called when a film begins to be copied to the CPU, and when that has ended, well or not. */
+  readonly onCopying?: (begins: boolean) => void;
   /** Called before each layer is read. */
   readonly onRead?: (device: FaultyDevice, layer: string) => void;
   /** Labels of the buffers for which there is no memory. */
@@ -28,7 +30,7 @@ export interface Faults {
 }
 
 /** The real backend, whose devices can be lost at any submission. */
-export function faultyBackend({ onSubmit, onSave, onRead, onOpen, outOfMemory }: Faults): {
+export function faultyBackend({ onSubmit, onSave, onCopying, onRead, onOpen, outOfMemory }: Faults): {
   readonly backend: Backend;
   readonly devices: FaultyDevice[];
 } {
@@ -77,10 +79,15 @@ export function faultyBackend({ onSubmit, onSave, onRead, onOpen, outOfMemory }:
         return read(layer);
       }) as typeof tracer.read;
       tracer.saveFilm = async () => {
-        onSave?.(faulty);
-        const film = await save();
-        onSave?.(faulty, film);
-        return film;
+        onCopying?.(true);
+        try {
+          onSave?.(faulty);
+          const film = await save();
+          onSave?.(faulty, film);
+          return film;
+        } finally {
+          onCopying?.(false);
+        }
       };
       return tracer;
     },

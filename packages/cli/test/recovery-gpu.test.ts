@@ -17,14 +17,31 @@ const files = ['x.png', 'x.exr', 'x.hdr'];
 const folder = () =>
   temporaryFolder({ 'red.glb': makeGlb({ camera: true }), 'shoe.glb': makeGlb({ camera: true, variants: true }) });
 
-/** A clock that runs a thousand times as fast, so that a checkpoint is due after every batch. */
-function hastyIo(cwd: string): FakeIo {
-  const io = fakeIo(cwd);
-  return Object.assign(Object.create(io) as FakeIo, { now: () => 1000 * performance.now() });
+/**
+ * A clock that runs a thousand times as fast, so that a checkpoint is due after every batch. It stands still while a film
+ * is copied: the interval grows with the time that a copy took, and on a busy machine no second one would be due.
+ */
+class HastyClock {
+  #copies = 0;
+  #stoppedAt = 0;
+  #stopped = 0;
+
+  now(): number {
+    return 1000 * ((this.#copies > 0 ? this.#stoppedAt : performance.now()) - this.#stopped);
+  }
+
+  copying(begins: boolean): void {
+    if (begins && this.#copies === 0) this.#stoppedAt = performance.now();
+    this.#copies += begins ? 1 : -1;
+    if (this.#copies === 0) this.#stopped += performance.now() - this.#stoppedAt;
+  }
 }
 
-async function glanz(argv: readonly string[], cwd: string, faults: Faults = {}, io: FakeIo = hastyIo(cwd)) {
-  const { backend, devices } = faultyBackend(faults);
+async function glanz(argv: readonly string[], cwd: string, faults: Faults = {}) {
+  const clock = new HastyClock();
+  const recorded = fakeIo(cwd);
+  const io = Object.assign(Object.create(recorded) as FakeIo, { now: () => clock.now() });
+  const { backend, devices } = faultyBackend({ ...faults, onCopying: (begins) => clock.copying(begins) });
   const code = await runCli(['render', ...argv, '--json'], io, backend);
   const out = io.out.join('');
   return { code, out, err: io.err.join(''), devices, result: JSON.parse(out) as RenderResult };

@@ -242,6 +242,7 @@ describe('writing', () => {
       'prepareMs',
       'renderMs',
       'readMs',
+      'denoiseMs',
       'writeMs',
       'totalMs',
     ]);
