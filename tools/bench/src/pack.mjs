@@ -1,5 +1,6 @@
 // npm run bench:pack — one bundled file per benchmark under .gpu-bench/, for machines that have nothing but a GPU.
-// `--browser` packs Chromium and its pages as well (browser/pack.mjs).
+// `--browser` packs Chromium and its pages as well (browser/pack.mjs), `--products` the models of denoise-time; both are
+// besides the limit of what is packed.
 // Each file carries its code and makes its models where it runs; scenes and references of equal-time and groundtruth
 // lie beside it. With `tools/gpu/pack.sh` beside it:
 //   . .gpu/setup.sh && $GPU_NODE .gpu-bench/paper-gpu.mjs --json out.json
@@ -41,6 +42,15 @@ total += dataBytes;
 process.stdout.write(
   `.gpu-bench/equal-time-data ${(dataBytes / 1024).toFixed(0)} KiB${missing.length === 0 ? '' : `, without ${missing.join(', ')}, which are not here`}\n`,
 );
+if (process.argv.includes('--products')) {
+  const products = join(root, 'tools/bench/.cache/pack-products.mjs');
+  await bundle("export { packProducts } from './denoise/pack-products';", products);
+  const { packProducts } = await import(pathToFileURL(products).href);
+  const left = await packProducts(join(out, 'product-data'), join(root, 'packages/denoise-weights/weights'));
+  process.stdout.write(
+    `.gpu-bench/product-data${left.length === 0 ? '' : `, without ${left.join(', ')}, which are not here`}\n`,
+  );
+}
 if (process.argv.includes('--browser')) await (await import('./browser/pack.mjs')).packBrowser();
 let commit = 'unknown';
 try {

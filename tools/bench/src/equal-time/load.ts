@@ -23,8 +23,8 @@ export interface Pixels {
 }
 
 /** The folder of a packed bundle's data, if this is one. */
-export function packedFolder(): string | undefined {
-  const folder = join(dirname(fileURLToPath(import.meta.url)), DATA_FOLDER);
+export function packedFolder(name = DATA_FOLDER): string | undefined {
+  const folder = join(dirname(fileURLToPath(import.meta.url)), name);
   return existsSync(folder) ? folder : undefined;
 }
 
@@ -63,17 +63,22 @@ function unpackPixels(file: string): Pixels {
   return { width: width as number, height: height as number, data: bytes.slice(8) };
 }
 
-/** Decodes a texture, the same way for all contestants. */
-export async function decodePixels(bytes: Uint8Array): Promise<Pixels> {
-  const packed = packedFolder();
-  if (packed) {
-    const file = join(packed, 'images', pixelsName(bytes));
+/** Decodes a texture, the same way for all contestants. `folder`: of the packed data, if there is any. */
+export async function decodePixels(
+  bytes: Uint8Array,
+  {
+    folder = packedFolder(),
+    largest = LARGEST,
+  }: { readonly folder?: string | undefined; readonly largest?: number } = {},
+): Promise<Pixels> {
+  if (folder) {
+    const file = join(folder, 'images', pixelsName(bytes));
     if (!existsSync(file)) throw new BenchError('bench/missing-data', `${file} is missing: pack again.`);
     return unpackPixels(file);
   }
   const { default: sharp } = await import('sharp');
   const { data, info } = await sharp(bytes, { ignoreIcc: true })
-    .resize({ width: LARGEST, height: LARGEST, fit: 'inside', withoutEnlargement: true })
+    .resize({ width: largest, height: largest, fit: 'inside', withoutEnlargement: true })
     .toColourspace('srgb')
     .ensureAlpha()
     .raw({ depth: 'uchar' })

@@ -1,0 +1,208 @@
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { FILM_WEIGHTS, FilmDenoiser } from '@glanz/denoise/film';
+import { PathTracer, requestDevice, type PathTracerOptions } from '@glanz/renderer';
+import { createGpu } from '@glanz/renderer/node';
+import type { Benchmark, Figure } from '../benchmark';
+import { crossing, type Point } from '../denoise/crossing';
+import { flipOfFiles, serveFlipJobs, writeShown, type FlipJob } from '../denoise/flip-jobs';
+import { PRODUCT_DATA, PRODUCT_SCENES } from '../denoise/product-scenes';
+import { packedFolder } from '../equal-time/load';
+import { BenchError } from '../error';
+
+const WEIGHTS = 'packages/denoise-weights/weights';
+const QUALITIES = ['fast', 'balanced'] as const;
+/** Mean ꟻLIP of an image that is taken for clean. */
+const CLEAN = 0.05;
+/** How much sooner an image shall be clean, in the geometric mean. */
+const SOONER = 5;
+/** Bounces beyond this change nothing that can be seen in these scenes. */
+const DEPTH = 12;
+
+type Way = 'film' | (typeof QUALITIES)[number];
+const WAYS: readonly Way[] = ['film', ...QUALITIES];
+
+/** An image that was made, with the time that it took. */
+interface Shot extends FlipJob {
+  readonly scene: string;
+  readonly way: Way;
+  readonly samples: number;
+  readonly milliseconds: number;
+}
+
+const elapsed = async (device: GPUDevice, work: () => Promise<unknown>) => {
+  const started = performance.now();
+  await work();
+  await device.queue.onSubmittedWorkDone();
+  return performance.now() - started;
+};
+
+async function addSamples(tracer: PathTracer, samples: number): Promise<void> {
+  for await (const progress of tracer.render({ samples, maxSubmitMs: 100 })) void progress;
+}
+
+/** Wall time until an image is clean, denoised and not: rendering from the first sample on, and the denoiser's own. */
+export const benchmark: Benchmark = {
+  description: `time to a FLIP of ${CLEAN} against a long render, denoised and not, on ten product scenes at 1920 × 1080`,
+  options: {
+    scenes: { type: 'string', help: 'names with semicolons; default: all' },
+    weights: { type: 'string', help: `folder of the .tza archives; default: ${WEIGHTS}` },
+    'reference-seconds': { type: 'string', help: 'that a reference is rendered for; default: 10' },
+    deadline: { type: 'string', help: 'seconds after which no scene is begun' },
+  },
+  async run({ log, quick, gpu: name, values }) {
+    serveFlipJobs();
+    const started = performance.now();
+    const scenes = values['scenes']?.split(';') ?? Object.keys(PRODUCT_SCENES).slice(0, quick ? 1 : undefined);
+    const unknown = scenes.find((scene) => !Object.hasOwn(PRODUCT_SCENES, scene));
+    if (unknown !== undefined)
+      throw new BenchError(
+        'bench/option',
+        `--scenes: there is no "${unknown}"; there are: ${Object.keys(PRODUCT_SCENES).join('; ')}.`,
+      );
+    const { gpu, adapterName, software } = await createGpu(name ? { gpu: name } : {});
+    const device = await requestDevice({ gpu });
+    const [width, height] = quick ? [96, 54] : [1920, 1080];
+    const most = quick ? 4 : 1024;
+    const seconds = quick ? 1 : Number(values['reference-seconds'] ?? 10);
+    const packed = packedFolder(PRODUCT_DATA);
+    const weights = values['weights'] ?? (packed ? join(packed, 'weights') : WEIGHTS);
+    const denoisers = await Promise.all(
+      QUALITIES.map(async (quality) => {
+        const color = new Uint8Array(readFileSync(join(weights, `${FILM_WEIGHTS[quality].color}.tza`)));
+        return [quality, await FilmDenoiser.create(device, { color }, { maxSubmitMs: 100 })] as const;
+      }),
+    );
+    const folder = mkdtempSync(join(tmpdir(), 'glanz-denoise-time-'));
+    const shots: Shot[] = [];
+    const notes: string[] = [];
+    try {
+      for (const scene of scenes) {
+        if (performance.now() - started > 1000 * Number(values['deadline'] ?? Infinity)) {
+          notes.push(`${scene}: left out, the deadline had passed`);
+          continue;
+        }
+        const product = await PRODUCT_SCENES[scene]!(width / height);
+        const create = (options: Partial<PathTracerOptions>) =>
+          PathTracer.create(device, product.scene, {
+            width,
+            height,
+            camera: product.camera,
+            maxDepth: DEPTH,
+            ...options,
+          });
+        const file = (way: string, samples: number) => join(folder, `${scenes.indexOf(scene)}-${way}-${samples}.rgb`);
+        const reference = file('reference', 0);
+        const long = await create({ seed: 5001 });
+        const until = performance.now() + 1000 * seconds;
+        while (performance.now() < until || long.samples < 2 * most) await addSamples(long, long.samples + 64);
+        const referenceSamples = long.samples;
+        writeShown(reference, await long.read('beauty'));
+        long.destroy();
+        for (const guided of [false, true]) {
+          const tracer = await create(guided ? { aovs: ['albedo', 'normal'] } : {});
+          // Whatever happens once, such as allocations, comes before what is timed.
+          await addSamples(tracer, 2);
+          if (guided) for (const [, denoiser] of denoisers) await denoiser.denoiseTracer(tracer);
+          tracer.reset();
+          let rendering = 0;
+          for (let samples = 1; samples <= most; samples *= 2) {
+            rendering += await elapsed(device, () => addSamples(tracer, samples));
+            const shot = (way: Way, milliseconds: number, image: Float32Array) => {
+              const test = file(way, samples);
+              writeShown(test, image);
+              shots.push({ scene, way, samples, milliseconds, test, reference, width, height });
+            };
+            if (!guided) {
+              shot('film', rendering, await tracer.read('beauty'));
+              continue;
+            }
+            for (const [quality, denoiser] of denoisers) {
+              const began = performance.now();
+              // Resolves when the GPU is done.
+              const image = await denoiser.denoiseTracer(tracer);
+              shot(quality, rendering + performance.now() - began, await denoiser.read(image));
+            }
+          }
+          tracer.destroy();
+        }
+        const last = shots.findLast(({ way }) => way === 'film')!;
+        log(
+          `${scene}: reference of ${referenceSamples} samples; ${(last.milliseconds / last.samples).toFixed(2)} ms a sample`,
+        );
+      }
+      for (const [, denoiser] of denoisers) denoiser.destroy();
+      device.destroy();
+      log(`comparing ${shots.length} images`);
+      const errors = await flipOfFiles(shots, folder);
+      const rows = scenes.flatMap((scene) => {
+        const of = (way: Way) =>
+          shots.flatMap((shot, i) =>
+            shot.scene === scene && shot.way === way ? [{ ...shot, error: errors[i]! }] : [],
+          );
+        const film = of('film');
+        if (film.length === 0) return [];
+        const points = Object.fromEntries(
+          WAYS.map((way) => [
+            way,
+            of(way).map(({ samples, milliseconds, error }) => ({ samples, milliseconds, error })),
+          ]),
+        ) as Record<Way, (Point & { readonly samples: number })[]>;
+        const clean = Object.fromEntries(WAYS.map((way) => [way, crossing(points[way], CLEAN)])) as Record<
+          Way,
+          number | undefined
+        >;
+        for (const way of WAYS)
+          log(
+            `${scene}, ${way}: clean after ${clean[way]?.toFixed(1) ?? `more than ${points[way].at(-1)!.milliseconds.toFixed(0)}`} ms; FLIP at 1, 2, 4, … samples: ${points[way].map(({ error }) => error.toFixed(3)).join(' ')}`,
+          );
+        return [{ scene, points, clean }];
+      });
+      return {
+        settings: { width, height, scenes, depth: DEPTH, clean: CLEAN, qualities: QUALITIES },
+        gpu: { name: adapterName, software },
+        figures: QUALITIES.flatMap((quality) => figuresOf(quality, rows)),
+        notes,
+        details: rows,
+      };
+    } finally {
+      rmSync(folder, { recursive: true, force: true });
+    }
+  },
+};
+
+/** How much sooner images are clean. Where a film never was, its last image counts as if it had been. */
+function figuresOf(
+  quality: (typeof QUALITIES)[number],
+  rows: readonly {
+    readonly scene: string;
+    readonly points: Readonly<Record<Way, readonly Point[]>>;
+    readonly clean: Readonly<Record<Way, number | undefined>>;
+  }[],
+): Figure[] {
+  const ratios = rows.map(({ points, clean }) => {
+    const denoised = clean[quality];
+    return denoised === undefined ? 0 : (clean.film ?? points.film.at(-1)!.milliseconds) / denoised;
+  });
+  if (ratios.length === 0) return [];
+  const target = (value: number, source: string) => ({ value, relation: '>=' as const, source });
+  return [
+    {
+      name: `${quality}: sooner clean, geometric mean`,
+      unit: '×',
+      runs: ratios.length,
+      min: Math.min(...ratios),
+      median: Math.exp(ratios.reduce((sum, ratio) => sum + Math.log(ratio), 0) / ratios.length),
+      max: Math.max(...ratios),
+      target: target(SOONER, 'clean at once'),
+    },
+    {
+      name: `${quality}: sooner clean, the least of the scenes`,
+      unit: '×',
+      runs: ratios.length,
+      median: Math.min(...ratios),
+      target: target(1, 'never later'),
+    },
+  ];
+}

@@ -1,0 +1,65 @@
+import { spawn } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { BenchError } from '../error';
+import { flip } from '../flip/flip';
+
+/** Set in the processes that {@link flipOfFiles} starts: the file with their jobs. */
+const CHILD = 'GLANZ_BENCH_FLIP_JOBS';
+
+/** Two images as sRGB shows them, as files of RGB bytes. */
+export interface FlipJob {
+  readonly test: string;
+  readonly reference: string;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Writes a linear RGBA image, as sRGB shows it without a tone map, for {@link FlipJob}. */
+export function writeShown(file: string, rgba: Float32Array): void {
+  const out = new Uint8Array((rgba.length / 4) * 3);
+  for (let i = 0; i < out.length; i++) {
+    const v = Math.min(Math.max(rgba[4 * Math.floor(i / 3) + (i % 3)]!, 0), 1);
+    out[i] = Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
+  }
+  writeFileSync(file, out);
+}
+
+const readShown = (file: string) => Float32Array.from(readFileSync(file), (code) => code / 255);
+
+/** In a process that {@link flipOfFiles} has started: does its jobs and ends. */
+export function serveFlipJobs(): void {
+  const file = process.env[CHILD];
+  if (file === undefined) return;
+  const jobs = JSON.parse(readFileSync(file, 'utf8')) as FlipJob[];
+  const results = jobs.map(
+    ({ test, reference, width, height }) => flip(readShown(reference), readShown(test), width, height).mean,
+  );
+  writeFileSync(`${file}.out`, JSON.stringify(results));
+  process.exit(0);
+}
+
+/** Mean ꟻLIP of each job, on all processors: the benchmark itself is started again for a share of them each. */
+export async function flipOfFiles(jobs: readonly FlipJob[], folder: string): Promise<number[]> {
+  const count = Math.min(jobs.length, availableParallelism());
+  const results = new Array<number>(jobs.length);
+  await Promise.all(
+    Array.from({ length: count }, async (_, share) => {
+      const mine = jobs.flatMap((job, i) => (i % count === share ? [{ job, i }] : []));
+      const file = join(folder, `flip-${share}.json`);
+      writeFileSync(file, JSON.stringify(mine.map(({ job }) => job)));
+      const child = spawn(process.execPath, [fileURLToPath(import.meta.url)], {
+        env: { ...process.env, [CHILD]: file },
+        stdio: ['ignore', 'ignore', 'inherit'],
+      });
+      const code = await new Promise<number | null>((resolve) => child.on('close', resolve));
+      if (code !== 0) throw new BenchError('bench/not-available', `A process that compares images ended with ${code}.`);
+      (JSON.parse(readFileSync(`${file}.out`, 'utf8')) as number[]).forEach((value, k) => {
+        results[mine[k]!.i] = value;
+      });
+    }),
+  );
+  return results;
+}
