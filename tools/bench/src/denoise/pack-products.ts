@@ -1,8 +1,12 @@
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
+import { gzipSync } from 'node:zlib';
 import { assetFile, decodePixels, glbImages, packPixels, pixelsName } from '../equal-time/load';
 import { FILM_WEIGHTS } from '@glanz/denoise/film';
 import { HALL, PRODUCT_MODELS, PRODUCT_TEXELS } from './product-scenes';
+
+/** Bytes at the beginning of an encoded image that say what it is. */
+const KEPT = 64;
 
 /**
  * Copies the product scenes' files and two networks into a folder, with all images decoded, so that a bundle beside it
@@ -21,13 +25,20 @@ export async function packProducts(folder: string, weights: string): Promise<str
       missing.push(path);
       continue;
     }
-    copy(file, path);
-    if (path.endsWith('.glb'))
-      for (const image of glbImages(new Uint8Array(readFileSync(file))))
-        writeFileSync(
-          join(folder, 'images', pixelsName(image)),
-          packPixels(await decodePixels(image, { largest: PRODUCT_TEXELS })),
-        );
+    const bytes = new Uint8Array(readFileSync(file));
+    if (!path.endsWith('.glb')) {
+      copy(file, path);
+      continue;
+    }
+    for (const [i, image] of glbImages(bytes).entries()) {
+      const pixels = packPixels(await decodePixels(image, { largest: PRODUCT_TEXELS }));
+      // Its pixels are enough: of the encoded image what says its type stays, and what tells it from the others.
+      image.fill(0, KEPT);
+      image[KEPT] = i;
+      writeFileSync(join(folder, 'images', pixelsName(image)), pixels);
+    }
+    mkdirSync(dirname(join(folder, path)), { recursive: true });
+    writeFileSync(join(folder, `${path}.gz`), gzipSync(bytes, { level: 9 }));
   }
   for (const { color } of [FILM_WEIGHTS.fast, FILM_WEIGHTS.balanced])
     copy(join(weights, `${color}.tza`), `weights/${color}.tza`);

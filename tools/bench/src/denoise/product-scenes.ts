@@ -1,5 +1,6 @@
-import { readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { gunzipSync } from 'node:zlib';
 import { loadGltf } from '@glanz/gltf';
 import { decodeHdr } from '@glanz/image';
 import { createPushButton } from '@glanz/models';
@@ -36,6 +37,7 @@ export interface ProductScene {
 function fileOf(path: string): Uint8Array<ArrayBuffer> {
   const packed = packedFolder(PRODUCT_DATA);
   const file = packed ? join(packed, path) : assetFile(path);
+  if (packed && existsSync(`${file}.gz`)) return new Uint8Array(gunzipSync(readFileSync(`${file}.gz`)));
   if (!file)
     throw new BenchError('bench/missing-data', `${path} is missing: set GLANZ_ASSETS to the folder that holds it.`);
   return new Uint8Array(readFileSync(file));
