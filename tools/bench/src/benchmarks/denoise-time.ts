@@ -6,7 +6,7 @@ import { PathTracer, requestDevice, type PathTracerOptions } from '@glanz/render
 import { createGpu } from '@glanz/renderer/node';
 import type { Benchmark, Figure } from '../benchmark';
 import { crossing, type Point } from '../denoise/crossing';
-import { flipOfFiles, serveFlipJobs, writeShown, type FlipJob } from '../denoise/flip-jobs';
+import { flipOfFiles, serveFlipJobs, writeImage } from '../denoise/flip-jobs';
 import { PRODUCT_DATA, PRODUCT_SCENES } from '../denoise/product-scenes';
 import { packedFolder } from '../equal-time/load';
 import { BenchError } from '../error';
@@ -24,11 +24,18 @@ type Way = 'film' | (typeof QUALITIES)[number];
 const WAYS: readonly Way[] = ['film', ...QUALITIES];
 
 /** An image that was made, with the time that it took. */
-interface Shot extends FlipJob {
-  readonly scene: string;
-  readonly way: Way;
+interface Shot {
   readonly samples: number;
   readonly milliseconds: number;
+  readonly file: string;
+}
+
+/** Images of a scene, made one way, with ever more samples. */
+interface Series {
+  readonly scene: string;
+  readonly way: Way;
+  readonly reference: string;
+  readonly shots: Shot[];
 }
 
 const elapsed = async (device: GPUDevice, work: () => Promise<unknown>) => {
@@ -75,7 +82,7 @@ export const benchmark: Benchmark = {
       }),
     );
     const folder = mkdtempSync(join(tmpdir(), 'glanz-denoise-time-'));
-    const shots: Shot[] = [];
+    const series: Series[] = [];
     const notes: string[] = [];
     try {
       for (const scene of scenes) {
@@ -98,8 +105,12 @@ export const benchmark: Benchmark = {
         const until = performance.now() + 1000 * seconds;
         while (performance.now() < until || long.samples < 2 * most) await addSamples(long, long.samples + 64);
         const referenceSamples = long.samples;
-        writeShown(reference, await long.read('beauty'));
+        writeImage(reference, await long.read('beauty'));
         long.destroy();
+        const made = Object.fromEntries(
+          WAYS.map((way) => [way, { scene, way, reference, shots: [] as Shot[] }]),
+        ) as unknown as Record<Way, Series>;
+        series.push(...Object.values(made));
         for (const guided of [false, true]) {
           const tracer = await create(guided ? { aovs: ['albedo', 'normal'] } : {});
           // Whatever happens once, such as allocations, comes before what is timed.
@@ -110,9 +121,9 @@ export const benchmark: Benchmark = {
           for (let samples = 1; samples <= most; samples *= 2) {
             rendering += await elapsed(device, () => addSamples(tracer, samples));
             const shot = (way: Way, milliseconds: number, image: Float32Array) => {
-              const test = file(way, samples);
-              writeShown(test, image);
-              shots.push({ scene, way, samples, milliseconds, test, reference, width, height });
+              const target = file(way, samples);
+              writeImage(target, image);
+              made[way].shots.push({ samples, milliseconds, file: target });
             };
             if (!guided) {
               shot('film', rendering, await tracer.read('beauty'));
@@ -127,37 +138,31 @@ export const benchmark: Benchmark = {
           }
           tracer.destroy();
         }
-        const last = shots.findLast(({ way }) => way === 'film')!;
+        const last = made.film.shots.at(-1)!;
         log(
           `${scene}: reference of ${referenceSamples} samples; ${(last.milliseconds / last.samples).toFixed(2)} ms a sample`,
         );
       }
       for (const [, denoiser] of denoisers) denoiser.destroy();
       device.destroy();
-      log(`comparing ${shots.length} images`);
-      const errors = await flipOfFiles(shots, folder);
-      const rows = scenes.flatMap((scene) => {
-        const of = (way: Way) =>
-          shots.flatMap((shot, i) =>
-            shot.scene === scene && shot.way === way ? [{ ...shot, error: errors[i]! }] : [],
-          );
-        const film = of('film');
-        if (film.length === 0) return [];
-        const points = Object.fromEntries(
-          WAYS.map((way) => [
-            way,
-            of(way).map(({ samples, milliseconds, error }) => ({ samples, milliseconds, error })),
-          ]),
-        ) as Record<Way, (Point & { readonly samples: number })[]>;
-        const clean = Object.fromEntries(WAYS.map((way) => [way, crossing(points[way], CLEAN)])) as Record<
-          Way,
-          number | undefined
-        >;
-        for (const way of WAYS)
-          log(
-            `${scene}, ${way}: clean after ${clean[way]?.toFixed(1) ?? `more than ${points[way].at(-1)!.milliseconds.toFixed(0)}`} ms; FLIP at 1, 2, 4, … samples: ${points[way].map(({ error }) => error.toFixed(3)).join(' ')}`,
-          );
-        return [{ scene, points, clean }];
+      log('comparing');
+      const jobs = series.map(({ shots, reference }) => ({
+        tests: shots.map((shot) => shot.file),
+        reference,
+        width,
+        height,
+      }));
+      const errors = await flipOfFiles(jobs, CLEAN, folder);
+      const rows = series.map(({ scene, way, shots }, i) => {
+        const points = shots.flatMap(({ samples, milliseconds }, k) => {
+          const error = errors[i]![k];
+          return error === null || error === undefined ? [] : [{ samples, milliseconds, error }];
+        });
+        const clean = crossing(points, CLEAN);
+        log(
+          `${scene}, ${way}: clean after ${clean?.toFixed(1) ?? `more than ${points.at(-1)!.milliseconds.toFixed(0)}`} ms; FLIP ${points.map(({ samples, error }) => `${error.toFixed(3)} at ${samples}`).join(', ')}`,
+        );
+        return { scene, way, points, clean };
       });
       return {
         settings: { width, height, scenes, depth: DEPTH, clean: CLEAN, qualities: QUALITIES },
@@ -177,13 +182,15 @@ function figuresOf(
   quality: (typeof QUALITIES)[number],
   rows: readonly {
     readonly scene: string;
-    readonly points: Readonly<Record<Way, readonly Point[]>>;
-    readonly clean: Readonly<Record<Way, number | undefined>>;
+    readonly way: Way;
+    readonly points: readonly Point[];
+    readonly clean: number | undefined;
   }[],
 ): Figure[] {
-  const ratios = rows.map(({ points, clean }) => {
-    const denoised = clean[quality];
-    return denoised === undefined ? 0 : (clean.film ?? points.film.at(-1)!.milliseconds) / denoised;
+  const ratios = rows.flatMap(({ scene, way, clean }) => {
+    if (way !== quality) return [];
+    const film = rows.find((row) => row.scene === scene && row.way === 'film')!;
+    return [clean === undefined ? 0 : (film.clean ?? film.points.at(-1)!.milliseconds) / clean];
   });
   if (ratios.length === 0) return [];
   const target = (value: number, source: string) => ({ value, relation: '>=' as const, source });

@@ -77,6 +77,38 @@ function features(
   return { edge: strength(edge), point: strength(point) };
 }
 
+/** What the eye gets from an image, see {@link seen}. */
+export interface SeenImage {
+  readonly width: number;
+  readonly height: number;
+  /** Hunt-adjusted CIELAB of what it resolves. */
+  readonly lab: Planes;
+  readonly edge: Float64Array;
+  readonly point: Float64Array;
+}
+
+/**
+ * The half of {@link flip} that concerns one image, for those that are compared with many.
+ *
+ * @param image RGB, stride 3, as displayed: sRGB codes 0..1, top row first.
+ */
+export function seen(
+  image: ArrayLike<number>,
+  width: number,
+  height: number,
+  { pixelsPerDegree = DEFAULT_PIXELS_PER_DEGREE }: FlipOptions = {},
+): SeenImage {
+  const pixels = width * height;
+  if (image.length !== 3 * pixels) throw new RangeError(`flip: images must have 3 × ${width} × ${height} values`);
+  const planes = opponentPlanes(image, pixels);
+  return {
+    width,
+    height,
+    lab: perceived(planes, width, height, pixelsPerDegree),
+    ...features(planes[0], width, height, pixelsPerDegree),
+  };
+}
+
 /**
  * The difference that a person notices who flips between two images at the same place: ꟻLIP for displayed (LDR)
  * images, after Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "ꟻLIP: A Difference Evaluator
@@ -92,32 +124,23 @@ export function flip(
   height: number,
   options: FlipOptions = {},
 ): FlipResult {
-  const { pixelsPerDegree = DEFAULT_PIXELS_PER_DEGREE } = options;
-  const pixels = width * height;
-  if (reference.length !== 3 * pixels || test.length !== 3 * pixels)
-    throw new RangeError(`flip: both images must have 3 × ${width} × ${height} values`);
-  const [a, b] = [opponentPlanes(reference, pixels), opponentPlanes(test, pixels)];
-  const [seenA, seenB] = [perceived(a, width, height, pixelsPerDegree), perceived(b, width, height, pixelsPerDegree)];
-  const [featuresA, featuresB] = [
-    features(a[0], width, height, pixelsPerDegree),
-    features(b[0], width, height, pixelsPerDegree),
-  ];
+  return flipOfSeen(seen(reference, width, height, options), seen(test, width, height, options));
+}
+
+/** {@link flip} of two images of the same size. */
+export function flipOfSeen(a: SeenImage, b: SeenImage): FlipResult {
+  const pixels = a.width * a.height;
   const largest = largestColourDifference();
   const knee = PC * largest;
   const map = new Float32Array(pixels);
   let sum = 0;
   for (let i = 0; i < pixels; i++) {
     const difference =
-      hyab(seenA[0][i]! - seenB[0][i]!, seenA[1][i]! - seenB[1][i]!, seenA[2][i]! - seenB[2][i]!) ** QC;
+      hyab(a.lab[0][i]! - b.lab[0][i]!, a.lab[1][i]! - b.lab[1][i]!, a.lab[2][i]! - b.lab[2][i]!) ** QC;
     const colour =
       difference < knee ? (difference * PT) / knee : PT + ((difference - knee) / (largest - knee)) * (1 - PT);
     const feature =
-      (Math.max(
-        Math.abs(featuresA.edge[i]! - featuresB.edge[i]!),
-        Math.abs(featuresA.point[i]! - featuresB.point[i]!),
-      ) /
-        Math.SQRT2) **
-      QF;
+      (Math.max(Math.abs(a.edge[i]! - b.edge[i]!), Math.abs(a.point[i]! - b.point[i]!)) / Math.SQRT2) ** QF;
     const value = Math.min(Math.max(colour, 0), 1) ** (1 - Math.min(feature, 1));
     map[i] = value;
     sum += value;
