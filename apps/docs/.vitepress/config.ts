@@ -10,6 +10,10 @@ import { packageFacts, packageLine } from './package-facts';
 import { buildPlayground } from './playground';
 import { readmeLinks } from './readme-links';
 
+// VitePress expands what data loaders watch from the working directory. Below apps/docs the patterns begin with `../..`,
+// which its `**/node_modules/**` does not match, and it would scan each node_modules of the repository, links included.
+process.chdir(fileURLToPath(new URL('../../..', import.meta.url)));
+
 const packages = [
   'viewer',
   'element',
