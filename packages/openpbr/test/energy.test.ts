@@ -4,6 +4,7 @@ import { resolveParameters, type OpenPbrParameters } from '../src/parameters/ind
 import { direction, furnace, whiteDielectric } from './integrate';
 import { anySurface, uniform, upperDirection } from './random';
 import { primitives } from './oracle/index';
+import { inSample } from './sample';
 
 const WHITE = [1, 1, 1] as const;
 const ROUGHNESSES = [0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1];
@@ -21,9 +22,10 @@ describe('white furnace: nothing is lost, nothing is made', () => {
     roughnesses = ROUGHNESSES,
   ): void => {
     it(`${name}: albedo from ${low} to ${high}, roughness ${roughnesses[0]} to ${roughnesses.at(-1)}, cosine 0.01 to 1`, () => {
-      for (const specular_roughness of roughnesses) {
+      for (const [i, specular_roughness] of roughnesses.entries()) {
         const p = resolveParameters({ base_color: WHITE, specular_roughness, ...fixed });
-        for (const mu of COSINES) {
+        for (const [j, mu] of COSINES.entries()) {
+          if (!inSample(2, i, j)) continue;
           for (const phi of azimuths) {
             const { albedo, pdf } = furnace(p, direction(mu, phi), {}, SIZE);
             const at = `roughness ${specular_roughness}, cosine ${mu}, azimuth ${phi}`;

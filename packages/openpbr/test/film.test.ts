@@ -15,6 +15,7 @@ import openpbrFilm from '../src/wgsl/film.wesl';
 import { direction } from './integrate';
 import { uniform } from './random';
 import { primitives, type Triple } from './oracle/index';
+import { inSample } from './sample';
 import { sphereFurnace } from './sphere';
 
 afterEach(() => expectNoGpuErrors());
@@ -198,9 +199,10 @@ describe('white furnace below a film', () => {
     inside = false,
   ): void => {
     it(`${name}: ${low} to ${high}, of all thicknesses, roughness 0.1 to 1`, () => {
-      for (const thin_film_thickness of [0.05, 0.3, 0.55, 1.2]) {
-        for (const specular_roughness of [0.1, 0.4, 0.7, 1]) {
-          for (const mu of [1, 0.7, 0.3, 0.1]) {
+      for (const [i, thin_film_thickness] of [0.05, 0.3, 0.55, 1.2].entries()) {
+        for (const [j, specular_roughness] of [0.1, 0.4, 0.7, 1].entries()) {
+          for (const [k, mu] of [1, 0.7, 0.3, 0.1].entries()) {
+            if (!inSample(4, i, j, k)) continue;
             const p = resolveParameters({
               base_color: [1, 1, 1],
               thin_film_weight: 1,
@@ -209,8 +211,8 @@ describe('white furnace below a film', () => {
               ...fixed,
             });
             const { reflected, transmitted, pdf } = sphereFurnace(p, direction(mu), { inside }, 32);
-            reflected.forEach((value, i) => {
-              const sum = value + (transmitted[i] as number);
+            reflected.forEach((value, channel) => {
+              const sum = value + (transmitted[channel] as number);
               expect(sum, JSON.stringify({ p, mu })).toBeGreaterThan(low);
               expect(sum, JSON.stringify({ p, mu })).toBeLessThan(high);
             });

@@ -2,6 +2,7 @@ import { describe, expect, it, vi } from 'vitest';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction, furnaceBelowOne, whiteDielectric, whiteMetal } from './integrate';
 import { resultsOf } from './results';
+import { inSample } from './sample';
 import { sphereFurnace } from './sphere';
 
 /** As in proofs.test.ts: GLANZ_FULL=1 takes all roughnesses and cosines, and more nodes. */
@@ -122,14 +123,15 @@ describe('white furnace, lobe by lobe', () => {
   for (const { name, parameters, low, high, inside = false, azimuths = [0.4], exact } of ROWS) {
     it(`${name}: ${low} to ${high}`, () => {
       const seen = { least: Infinity, most: -Infinity, density: 0 };
-      for (const specular_roughness of ROUGHNESSES) {
+      for (const [i, specular_roughness] of ROUGHNESSES.entries()) {
         const p = resolveParameters({ base_color: WHITE, subsurface_color: WHITE, specular_roughness, ...parameters });
-        for (const mu of COSINES) {
+        for (const [j, mu] of COSINES.entries()) {
+          if (!inSample(2, i, j)) continue;
           for (const phi of azimuths) {
             const { reflected, transmitted, pdf } = sphereFurnace(p, direction(mu, phi), { inside }, SIZE);
             const sums = exact
               ? [exact(p, direction(mu, phi), inside)]
-              : ([0, 1, 2] as const).map((i) => reflected[i] + transmitted[i]);
+              : ([0, 1, 2] as const).map((k) => reflected[k] + transmitted[k]);
             for (const sum of sums) {
               const at = `roughness ${specular_roughness}, cosine ${mu}, azimuth ${phi}`;
               // Seen along the normal from inside, the critical angle is an edge right through the nodes.
@@ -154,10 +156,11 @@ describe('white furnace, lobe by lobe', () => {
     const name = `index ${specular_ior} over diffuse`;
     it(`${name}: 0.997 to 1.002`, () => {
       const seen = { least: Infinity, most: -Infinity };
-      for (const specular_roughness of ROUGHNESSES) {
+      for (const [i, specular_roughness] of ROUGHNESSES.entries()) {
         const p = resolveParameters({ base_color: WHITE, specular_roughness, specular_ior });
         // Seen along the normal, the critical angle is an edge right through the nodes.
-        for (const mu of [0.97, ...COSINES.slice(1)]) {
+        for (const [j, mu] of [0.97, ...COSINES.slice(1)].entries()) {
+          if (!inSample(2, i, j)) continue;
           const sum = furnaceBelowOne(p, direction(mu), SIZE);
           const at = `roughness ${specular_roughness}, cosine ${mu}`;
           expect(sum, at).toBeGreaterThan(0.997 - QUADRATURE);

@@ -18,6 +18,7 @@ import { gpuShader } from './gpu';
 import { direction } from './integrate';
 import { anyClear, uniform, unit, upperDirection } from './random';
 import { primitives, type Triple } from './oracle/index';
+import { inSample } from './sample';
 import { sphereFurnace } from './sphere';
 
 const COSINES = [1, 0.85, 0.6, 0.35, 0.15, 0.05];
@@ -137,9 +138,10 @@ describe('white furnace of clear surfaces', () => {
     roughnesses = [0.05, 0.3, 0.6, 1],
   ): void => {
     it(`${name}: reflected and transmitted add up to ${low} to ${high}, roughness ${roughnesses[0]} to ${roughnesses.at(-1)}`, () => {
-      for (const specular_roughness of roughnesses) {
+      for (const [i, specular_roughness] of roughnesses.entries()) {
         const p = resolveParameters({ base_color: [1, 1, 1], transmission_weight: 1, specular_roughness, ...fixed });
-        for (const mu of COSINES) {
+        for (const [j, mu] of COSINES.entries()) {
+          if (!inSample(2, i, j)) continue;
           const { reflected, transmitted, pdf } = sphereFurnace(p, direction(mu), options, 56);
           const at = `roughness ${specular_roughness}, cosine ${mu}`;
           expect(reflected[1] + transmitted[1], at).toBeGreaterThanOrEqual(low - QUADRATURE);
