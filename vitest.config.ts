@@ -29,14 +29,19 @@ const resolve = { conditions: ['@glanz/source', 'module', 'import', 'default'] }
 // Files of a project share processes, their modules, and the test device with the programs that it has compiled: to load
 // them again for each file took as much time as all the tests that are quick. Files that replace parts of their process
 // (its output, its environment, its drivers) have one each: `isolated`.
-const project = (name: string, dir: string, { isolated = false } = {}) => ({
+const project = (
+  name: string,
+  dir: string,
+  { isolated = false, include = ['test/**/*.test.ts'], exclude = [] as string[] } = {},
+) => ({
   plugins: [weslModules()],
   resolve,
   ssr: { resolve: { conditions: ['@glanz/source', 'node', 'module', 'import', 'default'] } },
   test: {
     name,
     root: dir,
-    include: ['test/**/*.test.ts'],
+    include,
+    exclude: ['**/node_modules/**', ...exclude],
     isolate: isolated,
     setupFiles: [fileURLToPath(new URL('tools/pipeline/test-times.ts', import.meta.url))],
     pool: 'forks' as const,
@@ -44,6 +49,22 @@ const project = (name: string, dir: string, { isolated = false } = {}) => ({
     hookTimeout: 120_000,
   },
 });
+
+/** Tests of the renderer that count what is compiled, or want it compiled while they look. */
+const ALONE = [
+  'back-face-culling',
+  'camera',
+  'edits',
+  'features',
+  'first-light',
+  'launches',
+  'many-instances',
+  'refusals',
+  'release',
+  'warm-up',
+]
+  .map((name) => `test/gpu/${name}.test.ts`)
+  .concat('test/node/**/*.test.ts');
 
 export default defineConfig({
   test: {
@@ -59,14 +80,15 @@ export default defineConfig({
         'tonemap',
         'denoise',
         'image',
-        'renderer',
         'cli',
         'viewer',
         'element',
         'react',
         'three',
         'denoise-weights',
-      ].map((name) => project(name, `packages/${name}`, { isolated: ['renderer', 'cli', 'denoise'].includes(name) })),
+      ].map((name) => project(name, `packages/${name}`, { isolated: ['cli', 'denoise'].includes(name) })),
+      project('renderer', 'packages/renderer', { exclude: ALONE }),
+      project('renderer-alone', 'packages/renderer', { isolated: true, include: ALONE }),
       project('docs', 'apps/docs'),
       ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline'].map((name) =>
         project(`tools-${name}`, `tools/${name}`, { isolated: ['bench', 'pipeline'].includes(name) }),

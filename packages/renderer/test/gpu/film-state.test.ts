@@ -12,7 +12,7 @@ beforeAll(async () => {
 afterEach(() => expectNoGpuErrors());
 
 // Larger than a band of the first batches, so that samples are cut in the middle of the image.
-const options: PathTracerOptions = { width: 160, height: 120, camera, pathsInFlight: 1 << 13, maxDepth: 3 };
+const options: PathTracerOptions = { width: 80, height: 60, camera, pathsInFlight: 1 << 11, maxDepth: 3 };
 
 function stage(): Scene {
   const scene = createScene();
@@ -59,16 +59,16 @@ async function layers(tracer: PathTracer): Promise<Record<string, Float32Array>>
 describe('a saved film', () => {
   it('goes on in another tracer, bit for bit as if it had never been interrupted', async () => {
     const whole = await make();
-    await render(whole, { samples: 40 });
+    await render(whole, { samples: 24 });
     const expected = await layers(whole);
     const first = await make();
-    await render(first, { samples: 40 }, (samples) => samples >= 19);
+    await render(first, { samples: 24 }, (samples) => samples >= 19);
     const state = decodeFilmState(encodeFilmState(await first.saveFilm()));
     first.destroy();
-    const second = await make({ pathsInFlight: 1 << 12 });
+    const second = await make({ pathsInFlight: 1 << 10 });
     await second.restoreFilm(state);
     expect(second.samples).toBeGreaterThanOrEqual(19);
-    await render(second, { samples: 40 });
+    await render(second, { samples: 24 });
     expect(await layers(second)).toEqual(expected);
     whole.destroy();
     second.destroy();

@@ -10,13 +10,16 @@ beforeAll(async () => {
 });
 afterEach(() => expectNoGpuErrors());
 
+/** As far as the widest filter reaches from the corner, and a pixel more. */
+const SIZE = 8;
+
 /** One pixel of the image is one unit of the world. */
 const camera: OrthographicCamera = {
   type: 'orthographic',
   name: 'o',
   transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1],
-  xmag: 8,
-  ymag: 8,
+  xmag: 4,
+  ymag: 4,
 };
 
 const gauss = (x: number, sigma: number) => Math.exp(-0.5 * (x / sigma) ** 2);
@@ -63,8 +66,8 @@ describe('pixel filters', () => {
         { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 50.3, 49.8, 0, 1] },
       );
       const tracer = await PathTracer.create(device, scene, {
-        width: 16,
-        height: 16,
+        width: SIZE,
+        height: SIZE,
         camera,
         filter,
         background: 'transparent',
@@ -74,13 +77,13 @@ describe('pixel filters', () => {
       for await (const _progress of tracer.render({ samples: 4096, maxSubmitMs: 2000 }));
       const pixels = await tracer.read('beauty');
       let worst = 0;
-      for (let y = 0; y < 16; y++) {
-        for (let x = 0; x < 16; x++) {
-          const across = rightOf(weight, radius, 0.3 - (x + 0.5 - 8));
-          const up = rightOf(weight, radius, -0.2 - (8 - y - 0.5));
-          worst = Math.max(worst, Math.abs((pixels[4 * (16 * y + x)] as number) - across * up));
+      for (let y = 0; y < SIZE; y++) {
+        for (let x = 0; x < SIZE; x++) {
+          const across = rightOf(weight, radius, 0.3 - (x + 0.5 - SIZE / 2));
+          const up = rightOf(weight, radius, -0.2 - (SIZE / 2 - y - 0.5));
+          worst = Math.max(worst, Math.abs((pixels[4 * (SIZE * y + x)] as number) - across * up));
           // Coverage is filtered alike.
-          expect(pixels[4 * (16 * y + x) + 3]).toBe(pixels[4 * (16 * y + x)]);
+          expect(pixels[4 * (SIZE * y + x) + 3]).toBe(pixels[4 * (SIZE * y + x)]);
         }
       }
       // 4096 Sobol points: an axis-aligned corner is counted to about 1/1000; independent ones would have 4σ = 0.03.
