@@ -9,6 +9,7 @@ import { packFrame } from './session/frame';
 import type { GpuMemory } from './storage/buffers';
 import { onDeviceLost } from './device/device-loss';
 import type { GpuScene } from './scene/gpu-scene';
+import { unlessAborted } from './session/abort';
 import { memoryReport } from './session/memory-report';
 import { readBuffer } from './storage/read-buffer';
 import type { Integrator } from './integrator/integrator';
@@ -179,12 +180,18 @@ export class PathTracer extends TracerEdits {
    * that it has get their AOVs by tracing their paths again as far as these need.
    *
    * @param aovs All that are requested from now on; none of them costs nothing.
+   * @param options `signal` ends the wait: the promise rejects with its reason. An abort before the edit begins changes
+   * nothing; later the AOVs stay requested, and {@link read} records the samples that they still lack.
    * @returns When {@link aov} has them, for as many samples as the film has, at most 64, at least one.
    * @throws {RenderError} `renderer/option` for other names.
    * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
    */
-  async setAovs(aovs: readonly AovName[]): Promise<void> {
-    await this.#edits.run(() => {
+  async setAovs(
+    aovs: readonly AovName[],
+    { signal }: { readonly signal?: AbortSignal | undefined } = {},
+  ): Promise<void> {
+    const edit = this.#edits.run(() => {
+      signal?.throwIfAborted();
       this.#check();
       resolveOptions({ aovs });
       const before = this.#options.aovs;
@@ -193,7 +200,7 @@ export class PathTracer extends TracerEdits {
       };
       return {
         effect: 'keeps',
-        isStale: () => false,
+        isStale: () => signal?.aborted === true,
         apply: () => {
           request([...aovs]);
           return false;
@@ -201,7 +208,8 @@ export class PathTracer extends TracerEdits {
         undo: () => request(before),
       };
     });
-    if (!this.#destroyed) await this.#session.aovs.fill();
+    await unlessAborted(edit, signal);
+    if (!this.#destroyed) await this.#session.aovs.fill(signal);
   }
 
   get statistics(): RenderStatistics {

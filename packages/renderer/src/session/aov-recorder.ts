@@ -62,12 +62,15 @@ export class AovRecorder {
   /**
    * Records the AOVs of samples that the film has without them, at least of one, by tracing their paths as far as these
    * need: in small batches, between those of a running render. Ends early where the film restarts.
+   *
+   * @throws The reason of `signal`, once it is aborted and the GPU has finished the batch that it was working on.
    */
-  async fill(): Promise<void> {
+  async fill(signal?: AbortSignal): Promise<void> {
     const { device, integrator, film, samples, generation, ready } = this.#host;
     const started = generation();
     for (;;) {
       await ready();
+      signal?.throwIfAborted();
       const progress = this.#progress;
       const paths = Math.floor(integrator.capacity / integrator.pathsPerSample);
       const batch = progress.next(Math.max(1, samples()), paths);

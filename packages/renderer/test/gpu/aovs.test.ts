@@ -201,6 +201,42 @@ it('goes on where AOVs are given up and requested again', async () => {
   tracer.destroy();
 });
 
+it('ends the wait for AOVs by a signal: before the edit, while kernels compile, and between batches', async () => {
+  const reason = new Error('enough');
+  // A batch a sample.
+  const tracer = await render(diffuse(), 20, { pathsInFlight: SIZE * SIZE });
+  const before = tracer.setAovs(['normal'], { signal: AbortSignal.abort(reason) });
+  await expect(before).rejects.toBe(reason);
+  expect(tracer.aovs).toEqual([]);
+
+  const compiling = new AbortController();
+  const requested = tracer.setAovs(['normal'], { signal: compiling.signal });
+  compiling.abort(reason);
+  await expect(requested).rejects.toBe(reason);
+  expect(tracer.aovs).toEqual(['normal']);
+
+  const filling = new AbortController();
+  const recorded = tracer.setAovs(['normal'], { signal: filling.signal });
+  const abort = async () => {
+    const samples = () => {
+      try {
+        return tracer.aov('normal').samples;
+      } catch {
+        return 0;
+      }
+    };
+    while (samples() === 0) await new Promise((resolve) => setTimeout(resolve));
+    filling.abort(reason);
+  };
+  await Promise.all([expect(recorded).rejects.toBe(reason), abort()]);
+  expect(tracer.aov('normal').samples).toBeLessThan(20);
+
+  const whole = await render(diffuse(), 20, { aovs: ['normal'] });
+  expect(await tracer.read('normal')).toEqual(await whole.read('normal'));
+  tracer.destroy();
+  whole.destroy();
+});
+
 it('resumes with a saved film', async () => {
   const first = await render(diffuse(), 40, { aovs: ['albedo'] });
   const state = await first.saveFilm();
