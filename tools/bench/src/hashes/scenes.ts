@@ -1,5 +1,5 @@
 import { createCornellBox, createPushButton } from '@glanz/models';
-import type { FilmLayer, PathTracerOptions } from '@glanz/renderer';
+import type { AovName, FilmLayer, PathTracerOptions } from '@glanz/renderer';
 import { createScene, frameCamera, type Light, type Material, type Scene } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 import { addTexture, image, place, sphere, square, translation } from './shapes';
@@ -387,6 +387,13 @@ const AOVS = [
   'motion',
 ] as const;
 
+const layersAlone = (name: string, layers: readonly AovName[], parameters: Parameters): HashCase => ({
+  name: `AOVs ${name}`,
+  scene: () => stage(parameters),
+  options: { aovs: layers },
+  layers,
+});
+
 const LAYERS: readonly HashCase[] = [
   {
     name: 'first-hit AOVs',
@@ -394,6 +401,23 @@ const LAYERS: readonly HashCase[] = [
     options: { aovs: AOVS },
     layers: AOVS,
   },
+  // Fewer AOVs take fewer buffers and fewer words of a path: each set is a program of its own.
+  layersAlone('albedo alone', ['albedo'], { ...glass, transmission_dispersion_scale: 1 }),
+  layersAlone('albedo and normal, past fog', ['albedo', 'normal'], {
+    transmission_weight: 1,
+    specular_ior: 1,
+    transmission_depth: 1,
+    transmission_scatter: [0.5, 0.5, 0.5],
+  }),
+  layersAlone('position, in smooth glass', ['position', 'virtualDepth'], {
+    transmission_weight: 1,
+    specular_roughness: 0,
+  }),
+  layersAlone('ids, through a thin wall', ['objectId', 'materialId'], {
+    transmission_weight: 1,
+    geometry_thin_walled: true,
+    specular_roughness: 0,
+  }),
 ];
 
 const MODELS: readonly HashCase[] = [
