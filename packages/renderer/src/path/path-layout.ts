@@ -9,7 +9,7 @@ export interface PathShape {
   readonly planes: number;
   /**
    * With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for,
-   * with `MEDIA` the interiors they are in, with `AOVS` what `path_aov.wesl` says.
+   * with `MEDIA` the interiors they are in, with `AOVS` and the flags of single AOVs the words of `path_aov.wesl`.
    */
   readonly flags: Readonly<Record<string, boolean>>;
 }
@@ -61,18 +61,19 @@ const INTERIOR = {
   wavelength: 'f32',
 } as const;
 
+/** By the flag that brings them: words that no requested AOV needs would cost their memory traffic. */
 const AOVS = {
-  aov_state: 'u32',
-  aov_color: 'u32',
-  aov_normal: 'u32',
-  aov_depth: 'f32',
-  aov_reach: 'f32',
-  aov_instance: 'u32',
+  AOVS: { aov_state: 'u32', aov_color: 'u32', aov_depth: 'f32' },
+  AOV_NORMAL: { aov_normal: 'u32' },
+  AOV_POSITION: { aov_reach: 'f32' },
+  AOV_IDS: { aov_instance: 'u32' },
 } as const;
+
+const WITH_AOVS = Object.keys(AOVS) as (keyof typeof AOVS)[];
 
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
 export function pathLayout({ planes, flags }: PathShape): PathLayout {
-  const key = `${planes} ${flags.PATH_STATE === true} ${flags.CATCHER === true} ${flags.MEDIA === true} ${flags.AOVS === true}`;
+  const key = `${planes} ${['PATH_STATE', 'CATCHER', 'MEDIA', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
   let layout = layouts.get(key);
   if (!layout) {
     const fields = {
@@ -85,7 +86,7 @@ export function pathLayout({ planes, flags }: PathShape): PathLayout {
       ...(flags.PATH_STATE ? STATE : {}),
       ...(flags.CATCHER ? { role: 'u32' } : {}),
       ...(flags.MEDIA ? INTERIOR : {}),
-      ...(flags.AOVS ? AOVS : {}),
+      ...Object.assign({}, ...WITH_AOVS.map((flag) => (flags[flag] ? AOVS[flag] : {}))),
     });
     const film = filmPlanes(planes, flags.CATCHER === true);
     const module = wgslModule('renderer/path-of-scene', '', [records.module, gated('PLANES', film), path]);
