@@ -33,6 +33,12 @@ const SYMBOLS = [
     lacks: ['fn bvh_intersect_triangle', 'fn bvh_enter_box'],
   },
   { from: '@glanz/openpbr', symbol: 'OPENPBR_PARAMETERS', has: ['specular_roughness'], lacks: ['fn openpbr_'] },
+  {
+    from: '@glanz/openpbr',
+    symbol: 'OPENPBR_PARAMETER_SPECS',
+    has: ['specular_roughness'],
+    lacks: ['Albedo of the diffuse lobe'],
+  },
   { from: '@glanz/openpbr', symbol: 'openPbrStruct', has: ['base_color'], lacks: ['fn openpbr_sample'] },
   {
     from: '@glanz/tonemap',

@@ -1,4 +1,4 @@
-import { OPENPBR_PARAMETERS } from '@glanz/openpbr/parameters';
+import { OPENPBR_PARAMETER_SPECS } from '@glanz/openpbr/parameters';
 import type { Image, TexturedParameter } from '@glanz/scene';
 import { PlaygroundError } from '../errors';
 import type { Slot } from '../state/state';
@@ -26,7 +26,7 @@ export async function readImage(file: File): Promise<Image> {
 
 /** The image as it drives a parameter: colours as sRGB, numbers by their red channel. */
 export function slotOf(image: Image, parameter: TexturedParameter): NonNullable<Slot> {
-  const { type } = OPENPBR_PARAMETERS[parameter];
+  const { type } = OPENPBR_PARAMETER_SPECS[parameter];
   return {
     image,
     color_space: type === 'color3' ? 'srgb' : 'linear',

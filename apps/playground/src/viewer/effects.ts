@@ -1,4 +1,4 @@
-import { OPENPBR_PARAMETERS, type OpenPbrParameterName } from '@glanz/openpbr/parameters';
+import { OPENPBR_PARAMETER_SPECS, type OpenPbrParameterName } from '@glanz/openpbr/parameters';
 import type { Environment, Scene } from '@glanz/scene';
 import type { State, Values } from '../state/state';
 import type { CameraRig } from './camera-rig';
@@ -45,8 +45,8 @@ export function materialChange(loaded: Values, next: Values = {}, before: Values
   const names = new Set([...Object.keys(next), ...Object.keys(before)] as OpenPbrParameterName[]);
   const change: Partial<Record<OpenPbrParameterName, unknown>> = {};
   for (const name of names) {
-    const value = next[name] ?? loaded[name] ?? OPENPBR_PARAMETERS[name].default;
-    if (JSON.stringify(value) !== JSON.stringify(before[name] ?? loaded[name] ?? OPENPBR_PARAMETERS[name].default))
+    const value = next[name] ?? loaded[name] ?? OPENPBR_PARAMETER_SPECS[name].default;
+    if (JSON.stringify(value) !== JSON.stringify(before[name] ?? loaded[name] ?? OPENPBR_PARAMETER_SPECS[name].default))
       change[name] = value;
   }
   return change as Values;

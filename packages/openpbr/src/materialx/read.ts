@@ -1,6 +1,6 @@
 import { scatteringRadius } from '../color/radius';
 import {
-  OPENPBR_PARAMETERS,
+  OPENPBR_PARAMETER_SPECS,
   validateParameters,
   type OpenPbrColor,
   type OpenPbrParameterName,
@@ -89,7 +89,7 @@ function product(
 
 /** Takes one input of the surface. */
 function take(name: OpenPbrParameterName, given: Expression, parameters: Parameters, textures: Textures): void {
-  const { type } = OPENPBR_PARAMETERS[name];
+  const { type } = OPENPBR_PARAMETER_SPECS[name];
   if (type === 'vector3') {
     if (given.kind === 'normal map' && name.endsWith('normal'))
       textures[name] = { ...textureOf(given.texture, 'rgb'), ...(given.scale === 1 ? {} : { scale: given.scale }) };
@@ -121,7 +121,7 @@ function take(name: OpenPbrParameterName, given: Expression, parameters: Paramet
 /** Lengths in the units of the document's inputs as those of the parameters. */
 function inUnit(name: OpenPbrParameterName, input: XmlElement, parameters: Parameters, tell: Tell): void {
   const unit = input.attributes.get('unit');
-  const { unit: own } = OPENPBR_PARAMETERS[name];
+  const { unit: own } = OPENPBR_PARAMETER_SPECS[name];
   if (unit === undefined || (own !== 'length' && own !== 'µm')) return;
   const metres = UNITS.get(unit);
   if (metres === undefined)
@@ -142,7 +142,7 @@ function readSurface(
   for (const input of surface.children) {
     if (input.name !== 'input') continue;
     const key = input.attributes.get('name') ?? '';
-    if (!Object.hasOwn(OPENPBR_PARAMETERS, key)) {
+    if (!Object.hasOwn(OPENPBR_PARAMETER_SPECS, key)) {
       tell('unsupported', `OpenPBR has no input ${quote(key)}; it is left out.`, input.line);
       continue;
     }

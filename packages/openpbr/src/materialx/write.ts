@@ -1,6 +1,6 @@
 import {
   OPENPBR_PARAMETER_NAMES,
-  OPENPBR_PARAMETERS,
+  OPENPBR_PARAMETER_SPECS,
   validateParameters,
   type OpenPbrParameterName,
 } from '../parameters/index';
@@ -75,7 +75,7 @@ function textureNodes(
     wrapV = 'repeat',
     filter = 'linear',
   } = texture;
-  const target = OPENPBR_PARAMETERS[parameter].type;
+  const target = OPENPBR_PARAMETER_SPECS[parameter].type;
   let text = '';
   const make = (kind: string, suffix: string, type: string, inputs: readonly string[]) => {
     const name = names.unique(`${parameter}_${suffix}`);
@@ -174,7 +174,7 @@ export function writeMaterialX(materials: readonly MaterialXMaterial[]): Written
       nodes = '',
       outputs = '';
     for (const parameter of OPENPBR_PARAMETER_NAMES) {
-      const { type, default: initial } = OPENPBR_PARAMETERS[parameter];
+      const { type, default: initial } = OPENPBR_PARAMETER_SPECS[parameter];
       const value = parameters[parameter] ?? initial;
       const texture = textures[parameter];
       if (texture && type !== 'boolean' && !parameter.endsWith('tangent')) {

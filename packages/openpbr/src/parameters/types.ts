@@ -119,8 +119,8 @@ export type OpenPbrParameterType = 'float' | 'color3' | 'vector3' | 'boolean';
 /** `1` has no unit; `length` is a scene length (metres); `cd/m²` luminance; `µm` micrometres. */
 export type OpenPbrUnit = '1' | 'length' | 'cd/m²' | 'µm';
 
-/** What is known of one parameter. */
-export interface OpenPbrParameterInfo<Name extends OpenPbrParameterName = OpenPbrParameterName> {
+/** A parameter as data, without its text. */
+export interface OpenPbrParameterSpec<Name extends OpenPbrParameterName = OpenPbrParameterName> {
   readonly name: Name;
   readonly type: OpenPbrParameterType;
   readonly default: OpenPbrParameters[Name];
@@ -136,8 +136,14 @@ export interface OpenPbrParameterInfo<Name extends OpenPbrParameterName = OpenPb
   readonly softRange?: readonly [min: number, max: number];
   readonly unit: OpenPbrUnit;
   readonly group: OpenPbrGroup;
-  /** One sentence: what it does. */
-  readonly doc: string;
   /** Whether the specification lets it vary over the surface. */
   readonly texturable: boolean;
+}
+
+/** What is known of one parameter. */
+export interface OpenPbrParameterInfo<
+  Name extends OpenPbrParameterName = OpenPbrParameterName,
+> extends OpenPbrParameterSpec<Name> {
+  /** One sentence: what it does. */
+  readonly doc: string;
 }

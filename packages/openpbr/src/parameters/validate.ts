@@ -1,5 +1,5 @@
 import { GlanzError } from '@glanz/wgsl/error';
-import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS } from './table';
+import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETER_SPECS } from './specs';
 import type { OpenPbrParameterName, OpenPbrParameters } from './types';
 
 /** Thrown where parameters cannot be repaired. Codes: `openpbr/parameter-type`. */
@@ -57,7 +57,7 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
   const result: Record<string, unknown> = {};
   for (const [name, value] of Object.entries(given) as [OpenPbrParameterName, unknown][]) {
     if (value === undefined) continue;
-    const info = Object.hasOwn(OPENPBR_PARAMETERS, name) ? OPENPBR_PARAMETERS[name] : undefined;
+    const info = Object.hasOwn(OPENPBR_PARAMETER_SPECS, name) ? OPENPBR_PARAMETER_SPECS[name] : undefined;
     if (!info) {
       warnings.push({
         code: 'openpbr/unknown-parameter',
@@ -116,7 +116,7 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
 /** The specification's default of every parameter. */
 export function defaultParameters(): OpenPbrParameters {
   return Object.fromEntries(
-    OPENPBR_PARAMETER_NAMES.map((name) => [name, OPENPBR_PARAMETERS[name].default]),
+    OPENPBR_PARAMETER_NAMES.map((name) => [name, OPENPBR_PARAMETER_SPECS[name].default]),
   ) as unknown as OpenPbrParameters;
 }
 

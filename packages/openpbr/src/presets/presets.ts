@@ -1,7 +1,7 @@
 import { acescgToLinear } from '../color/acescg';
 import { scatteringRadius } from '../color/radius';
 import {
-  OPENPBR_PARAMETERS,
+  OPENPBR_PARAMETER_SPECS,
   validateParameters,
   type OpenPbrColor,
   type OpenPbrParameterName,
@@ -37,7 +37,7 @@ function converted(example: Partial<OpenPbrParameters>): Partial<OpenPbrParamete
       parameters.subsurface_radius_scale = Object.freeze(scale);
     } else
       parameters[name] =
-        OPENPBR_PARAMETERS[name].type === 'color3' ? Object.freeze(acescgToLinear(value as OpenPbrColor)) : value;
+        OPENPBR_PARAMETER_SPECS[name].type === 'color3' ? Object.freeze(acescgToLinear(value as OpenPbrColor)) : value;
   }
   // A few saturated colours lie outside of Rec.709, and edge tints of metals a little above 1.
   return Object.freeze(validateParameters(parameters as Partial<OpenPbrParameters>).parameters);

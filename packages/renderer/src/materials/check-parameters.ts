@@ -1,4 +1,4 @@
-import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETERS, validateParameters } from '@glanz/openpbr/parameters';
+import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETER_SPECS, validateParameters } from '@glanz/openpbr/parameters';
 import type { Material } from '@glanz/scene';
 import { RenderError } from '../errors';
 
@@ -48,7 +48,8 @@ export function checkParameters(material: string, parameters: Material['paramete
     const meant = nearest(parameter, OPENPBR_PARAMETER_NAMES);
     throw refuse(`OpenPBR has no parameter "${parameter}"${meant ? `; did you mean "${meant}"?` : '.'}`);
   }
-  const [min = '-∞', max = '∞'] = OPENPBR_PARAMETERS[parameter as keyof typeof OPENPBR_PARAMETERS].range ?? [];
+  const [min = '-∞', max = '∞'] =
+    OPENPBR_PARAMETER_SPECS[parameter as keyof typeof OPENPBR_PARAMETER_SPECS].range ?? [];
   const value = String(parameters[parameter as keyof typeof parameters]);
   throw refuse(
     `${parameter} is ${value}; it must be ${code === 'openpbr/no-direction' ? 'a vector with a length' : `finite and from ${min} to ${max}`}.`,

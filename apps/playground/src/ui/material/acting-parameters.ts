@@ -2,7 +2,7 @@ import {
   openpbr,
   openpbrEmission,
   openpbrOpacity,
-  OPENPBR_PARAMETERS,
+  OPENPBR_PARAMETER_SPECS,
   openPbrStruct,
   type OpenPbrParameterName,
 } from '@glanz/openpbr';
@@ -28,8 +28,8 @@ function textOf(roots: readonly WgslModule[]): string {
  */
 export function actingParameters(): ReadonlySet<OpenPbrParameterName> {
   const text = textOf([openpbr, openpbrEmission, openpbrOpacity]);
-  const names = Object.keys(OPENPBR_PARAMETERS) as OpenPbrParameterName[];
+  const names = Object.keys(OPENPBR_PARAMETER_SPECS) as OpenPbrParameterName[];
   return new Set(
-    names.filter((name) => OPENPBR_PARAMETERS[name].type === 'vector3' || new RegExp(`\\.${name}\\b`).test(text)),
+    names.filter((name) => OPENPBR_PARAMETER_SPECS[name].type === 'vector3' || new RegExp(`\\.${name}\\b`).test(text)),
   );
 }

@@ -1,4 +1,4 @@
-import { OPENPBR_PARAMETERS, type OpenPbrParameterName } from '@glanz/openpbr/parameters';
+import { OPENPBR_PARAMETER_SPECS, type OpenPbrParameterName } from '@glanz/openpbr/parameters';
 import type { Material, TexturedParameter } from '@glanz/scene';
 import { slotKey, type Slot, type State, type Values } from '../../state/state';
 import type { Store } from '../../state/store';
@@ -7,7 +7,7 @@ const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b)
 
 /** A parameter as the model has it. */
 export const loadedValue = <N extends OpenPbrParameterName>(material: Material, name: N) =>
-  material.parameters[name] ?? OPENPBR_PARAMETERS[name].default;
+  material.parameters[name] ?? OPENPBR_PARAMETER_SPECS[name].default;
 
 /** A parameter as it is now. */
 export const currentValue = <N extends OpenPbrParameterName>(
@@ -87,7 +87,10 @@ export function replaceMaterial(
 ): void {
   const { state } = store;
   const defaults = Object.fromEntries(
-    Object.keys(material.parameters).map((name) => [name, OPENPBR_PARAMETERS[name as OpenPbrParameterName].default]),
+    Object.keys(material.parameters).map((name) => [
+      name,
+      OPENPBR_PARAMETER_SPECS[name as OpenPbrParameterName].default,
+    ]),
   ) as Values;
   const gone = Object.keys(material.textures ?? {}).filter((name) => !name.startsWith('geometry_'));
   const kept = Object.entries(state.slots).filter(([key]) => !key.startsWith(`${index}/`));
