@@ -1,5 +1,5 @@
 import type { Batch } from '../schedule/scheduler';
-import { MAX_THREADS } from './integrator';
+import { MAX_THREADS } from './path-memory';
 
 /** The pixels of a film in batches that one dispatch covers. */
 export function forBands(pixels: number, run: (batch: Batch) => void): void {

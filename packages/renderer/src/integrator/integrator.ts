@@ -1,55 +1,16 @@
 import type { Film } from '../film/film';
 import type { FrameHistory } from '../film/frame-history';
 import type { GroupWeights } from '../film/layers';
-import {
-  GPU_BUFFER_COPY_DST,
-  GPU_BUFFER_COPY_SRC,
-  GPU_BUFFER_INDIRECT,
-  GPU_BUFFER_STORAGE,
-  GPU_BUFFER_UNIFORM,
-  type GpuMemory,
-} from '../storage/buffers';
-import { inErrorScopes } from '../device/error-scopes';
+import type { GpuMemory } from '../storage/buffers';
 import type { ResourceProvider } from '../storage/scene-resources';
 import type { KernelSet } from './kernel-cache';
 import { CONNECT_CROSSINGS, WALK_STEPS } from './limits';
-import { BLOCK } from '../storage/blocks';
-import { aovBatchStruct, batchStruct, frameStruct, historyStruct, shadowRecords } from '../storage/layout';
-import { pathLayout } from '../path/path-layout';
+import { PathMemory } from './path-memory';
+import { aovBatchStruct, batchStruct } from '../storage/layout';
 import { createBindGroup, MAX_LIGHT_GROUPS, type BindGroupName } from '../storage/resources';
 import type { Kernel, KernelFeatures, KernelName } from './pipelines';
 import type { Batch } from '../schedule/scheduler';
 import { isSoftware } from '../device/software';
-
-/** Queue header words before the items. */
-const QUEUE_WORDS = 8;
-
-/** One dispatch covers at most 65,535 workgroups of 64 threads. */
-export const MAX_THREADS = 65535 * 64;
-
-type OwnBuffer =
-  | 'frame'
-  | 'batch'
-  | 'aov_batch'
-  | 'history'
-  | 'history_moves'
-  | 'light_groups'
-  | 'paths'
-  | 'queues'
-  | 'shadows'
-  | 'dispatch';
-
-/** How many paths may be kept on the GPU at once. Large GPUs are known by the size of their buffers. */
-export function pathLimit(device: GPUDevice, wanted: number | undefined, features: KernelFeatures): number {
-  const most =
-    BLOCK *
-    Math.floor(
-      device.limits.maxStorageBufferBindingSize /
-        (BLOCK * Math.max(pathLayout(features).records.size, shadowRecords(features.flags).size)),
-    );
-  const standard = device.limits.maxBufferSize >= 2 ** 31 - 4 ? 1 << 22 : 1 << 20;
-  return Math.max(64, Math.min(wanted ?? standard, most, MAX_THREADS));
-}
 
 /** Which samples of a batch record their AOVs, and whether they are traced for nothing else. */
 export interface AovBatch {
@@ -75,14 +36,13 @@ export class Integrator {
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
   readonly #scene: ResourceProvider;
-  readonly #buffers: Record<OwnBuffer, GPUBuffer>;
+  readonly #paths: PathMemory;
   /** Bind groups by what they bind: kernels that bind the same share one. */
   readonly #groups: Readonly<Record<BindGroupName, Map<string, GPUBindGroup>>> = {
     launch: new Map(),
     scene: new Map(),
     film: new Map(),
   };
-  readonly #wanted: number | undefined;
   /**
    * Whether the GPU itself says how many threads a kernel shall have: only as many as there are paths left. A CPU, for
    * which each group of threads is work, gains by that. For a GPU those that end at once are nothing, and it is slow
@@ -90,12 +50,8 @@ export class Integrator {
    * on an H200.
    */
   readonly #counted: boolean;
-  #capacity: number;
-  #growing = false;
   /** The bind groups of the pass that is being encoded, by their numbers. */
   #bound: (GPUBindGroup | undefined)[] = [];
-  /** A number of paths that the GPU has refused memory for. */
-  #refused = Infinity;
   /** As it was written. */
   #aovs: AovBatch | undefined;
   limits: DepthLimits;
@@ -120,32 +76,9 @@ export class Integrator {
     this.#kernels = { features, kernels: {} };
     this.#film = film;
     this.limits = limits;
-    this.#wanted = wanted;
     const { adapterInfo } = device as { readonly adapterInfo?: GPUAdapterInfo };
     this.#counted = adapterInfo !== undefined && isSoftware(adapterInfo);
-    // A sample of the whole image; more when the GPU turns out to be fast.
-    const capacity = Math.min(pathLimit(device, wanted, features), Math.max(1 << 16, film.pixels));
-    this.#capacity = capacity;
-    this.#buffers = {
-      frame: memory.buffer('frame', frameStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      batch: memory.buffer('batch', batchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      aov_batch: memory.buffer('AOV batch', aovBatchStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      history: memory.buffer('history', historyStruct.size, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      history_moves: memory.buffer('history moves', 64, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST),
-      light_groups: memory.buffer('light groups', 2 * MAX_LIGHT_GROUPS * 16, GPU_BUFFER_UNIFORM | GPU_BUFFER_COPY_DST),
-      paths: memory.buffer('paths', pathLayout(features).records.bytes(capacity), GPU_BUFFER_STORAGE),
-      queues: memory.buffer(
-        'queues',
-        (QUEUE_WORDS + 2 * capacity) * 4,
-        GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST,
-      ),
-      shadows: memory.buffer(
-        'shadows',
-        shadowRecords(features.flags).bytes(features.flags.NEXT_EVENT ? capacity : 1),
-        GPU_BUFFER_STORAGE,
-      ),
-      dispatch: memory.buffer('dispatch', 32, GPU_BUFFER_STORAGE | GPU_BUFFER_INDIRECT),
-    };
+    this.#paths = new PathMemory(device, memory, features, film.pixels, wanted, () => this.rebind('launch'));
   }
 
   /**
@@ -166,12 +99,12 @@ export class Integrator {
 
   /** Paths that there is memory for. */
   get capacity(): number {
-    return this.#capacity;
+    return this.#paths.capacity;
   }
 
   /** Paths that there may be memory for: a batch of so many will be given it. */
   get limit(): number {
-    return pathLimit(this.#device, this.#wanted, this.#kernels.features);
+    return this.#paths.limit;
   }
 
   /** Paths of a sample: one, with catchers two. */
@@ -185,7 +118,7 @@ export class Integrator {
 
   /** The queue header; word 3 counts dropped samples, word 7 rays. */
   get queues(): GPUBuffer {
-    return this.#buffers.queues;
+    return this.#paths.buffers.queues;
   }
 
   /**
@@ -193,39 +126,14 @@ export class Integrator {
    * @returns `use` puts kernels and buffers in place; `discard` frees the buffers. Nothing has changed before.
    */
   prepare(kernels: KernelSet): { readonly use: () => void; readonly discard: () => void } {
-    // Paths that carry more may be too large for as many of them.
-    const capacity = Math.min(this.#capacity, pathLimit(this.#device, this.#wanted, kernels.features));
-    const made = this.#makePathBuffers(kernels.features, capacity, (name, bytes) => this.#buffers[name].size < bytes);
+    const paths = this.#paths.prepare(kernels.features);
     return {
       use: () => {
         this.#kernels = kernels;
-        this.#capacity = capacity;
-        this.#refused = Infinity;
-        this.#replace(made);
+        paths.use();
       },
-      discard: () => Object.values(made).forEach((buffer) => this.#memory.release(buffer)),
+      discard: paths.discard,
     };
-  }
-
-  #makePathBuffers(
-    features: KernelFeatures,
-    paths: number,
-    needed: (name: 'paths' | 'shadows', bytes: number) => boolean,
-  ): Partial<Record<OwnBuffer, GPUBuffer>> {
-    const bytes = {
-      paths: pathLayout(features).records.bytes(paths),
-      shadows: features.flags.NEXT_EVENT ? shadowRecords(features.flags).bytes(paths) : 0,
-    };
-    const names = (['paths', 'shadows'] as const).filter((name) => needed(name, bytes[name]));
-    return Object.fromEntries(names.map((name) => [name, this.#memory.buffer(name, bytes[name], GPU_BUFFER_STORAGE)]));
-  }
-
-  #replace(made: Partial<Record<OwnBuffer, GPUBuffer>>): void {
-    for (const [name, buffer] of Object.entries(made) as [OwnBuffer, GPUBuffer][]) {
-      this.#memory.release(this.#buffers[name]);
-      this.#buffers[name] = buffer;
-    }
-    this.rebind('launch');
   }
 
   /**
@@ -244,17 +152,14 @@ export class Integrator {
   }
 
   writeFrame(frame: ArrayBuffer): void {
-    this.#memory.write(this.#buffers.frame, frame);
+    this.#memory.write(this.#paths.buffers.frame, frame);
   }
 
   /** The frame before, for motion: see `FrameHistory.pack`. */
   writeHistory({ uniforms, moves }: ReturnType<FrameHistory['pack']>): void {
-    if (moves.byteLength > this.#buffers.history_moves.size)
-      this.#replace({
-        history_moves: this.#memory.buffer('history moves', moves.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST),
-      });
-    this.#memory.write(this.#buffers.history, uniforms);
-    this.#memory.write(this.#buffers.history_moves, moves);
+    this.#paths.fitMoves(moves.byteLength);
+    this.#memory.write(this.#paths.buffers.history, uniforms);
+    this.#memory.write(this.#paths.buffers.history_moves, moves);
   }
 
   /** Weights of the light groups: as they are now, and as they were when the film was begun. */
@@ -262,7 +167,7 @@ export class Integrator {
     const data = new Float32Array(8 * MAX_LIGHT_GROUPS);
     now.forEach((weight, i) => data.set(weight, 4 * i));
     first.forEach((weight, i) => data.set(weight, 4 * (MAX_LIGHT_GROUPS + i)));
-    this.#memory.write(this.#buffers.light_groups, data);
+    this.#memory.write(this.#paths.buffers.light_groups, data);
   }
 
   /**
@@ -270,39 +175,7 @@ export class Integrator {
    * granted it; where it has not, batches stay as they are.
    */
   room(paths: number): number {
-    const wanted = Math.min(paths, this.limit);
-    if (wanted > this.#capacity && wanted < this.#refused && !this.#growing) {
-      this.#growing = true;
-      this.#grow(wanted)
-        .catch(() => (this.#refused = Math.min(this.#refused, wanted)))
-        .finally(() => (this.#growing = false));
-    }
-    return this.#capacity;
-  }
-
-  async #grow(paths: number): Promise<void> {
-    const kernels = this.#kernels;
-    const { result: made, verified } = inErrorScopes(this.#device, 'more paths at once', () => ({
-      ...this.#makePathBuffers(kernels.features, paths, (name, bytes) => this.#buffers[name].size < bytes),
-      queues: this.#memory.buffer(
-        'queues',
-        (QUEUE_WORDS + 2 * paths) * 4,
-        GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC | GPU_BUFFER_COPY_DST,
-      ),
-    }));
-    const discard = () => Object.values(made).forEach((buffer) => this.#memory.release(buffer));
-    await verified.catch((error: unknown) => {
-      discard();
-      throw error;
-    });
-    // Other kernels have come meanwhile, whose paths may be larger.
-    if (kernels !== this.#kernels || this.#memory.destroyed) return discard();
-    this.#capacity = paths;
-    // The counts of dropped samples and of rays go on.
-    const encoder = this.#device.createCommandEncoder({ label: 'glanz queues' });
-    encoder.copyBufferToBuffer(this.#buffers.queues, 0, made.queues, 0, QUEUE_WORDS * 4);
-    this.#device.queue.submit([encoder.finish()]);
-    this.#replace(made);
+    return this.#paths.room(paths);
   }
 
   /**
@@ -368,7 +241,7 @@ export class Integrator {
   #run(pass: GPUComputePassEncoder, kernel: Kernel, work: number | { readonly indirect: number }): void {
     this.#bind(pass, kernel);
     if (typeof work === 'number') pass.dispatchWorkgroups(work);
-    else pass.dispatchWorkgroupsIndirect(this.#buffers.dispatch, work.indirect);
+    else pass.dispatchWorkgroupsIndirect(this.#paths.buffers.dispatch, work.indirect);
   }
 
   #writeBatch(batch: Batch): void {
@@ -381,7 +254,7 @@ export class Integrator {
       path_count: batch.pixelCount * batch.sampleCount * this.pathsPerSample,
       first_sample: this.firstSample,
     });
-    this.#memory.write(this.#buffers.batch, data);
+    this.#memory.write(this.#paths.buffers.batch, data);
   }
 
   #writeAovs(aovs: AovBatch): void {
@@ -390,7 +263,7 @@ export class Integrator {
     if (!this.#kernels.features.flags.AOVS || same) return;
     const data = aovBatchStruct.allocate();
     aovBatchStruct.write(data, 0, { begin: aovs.begin, end: aovs.end, only: aovs.only ? 1 : 0 });
-    this.#memory.write(this.#buffers.aov_batch, data);
+    this.#memory.write(this.#paths.buffers.aov_batch, data);
     this.#aovs = aovs;
   }
 
@@ -418,7 +291,7 @@ export class Integrator {
   }
 
   #resource(name: string): GPUBindingResource | undefined {
-    const own = (this.#buffers as Record<string, GPUBuffer>)[name];
+    const own = (this.#paths.buffers as Record<string, GPUBuffer>)[name];
     if (own) return { buffer: own };
     const film = this.#film.buffer(name);
     return film ? { buffer: film, size: this.#film.bytes(film) } : this.#scene.resource(name);
