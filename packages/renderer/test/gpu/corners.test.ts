@@ -10,7 +10,7 @@ beforeAll(async () => {
 afterAll(() => expectNoGpuErrors());
 
 /**
- * White walls around the camera, in blinding surroundings: every path that slips out is seen. A prism of regular
+ * White walls around the camera, in a blinding environment: every path that slips out is seen. A prism of regular
  * polygons, so its walls meet at one angle; far from the origin, where the rounding of positions is a noticeable part
  * of the room.
  */

@@ -147,7 +147,7 @@ function cauchy(n: number, abbe: number, wavelength: number): number {
   return n + b * (wavelength ** -2 - 587.6 ** -2);
 }
 
-/** Surroundings whose radiance goes up with the azimuth around −z. */
+/** Environment whose radiance goes up with the azimuth around −z. */
 function ramp(): Environment {
   const [width, height] = [512, 8];
   const data = new Float32Array(width * height * 3);

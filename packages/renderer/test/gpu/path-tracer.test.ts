@@ -181,7 +181,7 @@ describe('light transport against analytic values', () => {
   });
 });
 
-describe('surroundings and textures', () => {
+describe('environment and textures', () => {
   const skyWith = (x: number, y: number) => {
     const data = new Float32Array(64 * 32 * 3);
     data.set([9, 5, 1], 3 * (y * 64 + x));
