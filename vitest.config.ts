@@ -52,21 +52,19 @@ const project = (
   },
 });
 
-/** Tests of the renderer that count what is compiled, or want it compiled while they look. */
-const ALONE = [
-  'back-face-culling',
-  'camera',
-  'edits',
-  'features',
-  'first-light',
-  'launches',
-  'many-instances',
-  'refusals',
-  'release',
-  'warm-up',
-]
-  .map((name) => `test/gpu/${name}.test.ts`)
-  .concat('test/node/**/*.test.ts');
+/** Tests of the renderer that compile much of the same, and neither count that nor change the device. */
+const SHARED = [
+  'adaptive',
+  'area-lights',
+  'corners',
+  'delta-transmission',
+  'dispersion',
+  'film-state',
+  'filter',
+  'interiors',
+  'light-tree',
+  'path-tracer',
+].map((name) => `test/gpu/${name}.test.ts`);
 
 export default defineConfig({
   test: {
@@ -89,8 +87,8 @@ export default defineConfig({
         'three',
         'denoise-weights',
       ].map((name) => project(name, `packages/${name}`, { isolated: ['cli', 'denoise'].includes(name) })),
-      project('renderer', 'packages/renderer', { exclude: ALONE }),
-      project('renderer-alone', 'packages/renderer', { isolated: true, include: ALONE }),
+      project('renderer', 'packages/renderer', { isolated: true, exclude: SHARED }),
+      project('renderer-shared', 'packages/renderer', { include: SHARED }),
       project('docs', 'apps/docs'),
       ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline'].map((name) =>
         project(`tools-${name}`, `tools/${name}`, { isolated: ['bench', 'pipeline'].includes(name) }),
