@@ -1,7 +1,7 @@
 import { decodeExr } from '@glanz/image/exr';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it, vi } from 'vitest';
 import { parseCommand } from '../src/command';
 import { fakeIo, run, temporaryFolder } from './fakes';
 
@@ -72,5 +72,22 @@ describe('--denoise', () => {
   it('is in the result', async () => {
     const { out } = await render('--denoise', 'best', '--json', '-o', 'a.png');
     expect(JSON.parse(out)).toMatchObject({ ok: true, denoised: 'best' });
+  });
+});
+
+describe('without the weights', () => {
+  afterEach(() => vi.doUnmock('@glanz/denoise-weights/node'));
+
+  it('names the package to install', async () => {
+    vi.doMock('@glanz/denoise-weights/node', () => {
+      throw new Error("Cannot find package '@glanz/denoise-weights'");
+    });
+    vi.resetModules();
+    const { createImageDenoiser } = await import('../src/denoise');
+    const device = {} as GPUDevice;
+    await expect(createImageDenoiser(device, 'fast', new AbortController().signal)).rejects.toMatchObject({
+      code: 'cli/missing-package',
+      message: expect.stringContaining('npm install @glanz/denoise-weights') as string,
+    });
   });
 });

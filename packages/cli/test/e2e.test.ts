@@ -1,4 +1,4 @@
-import { readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { decodeExr } from '@glanz/image';
 import sharp from 'sharp';
@@ -6,6 +6,9 @@ import { describe, expect, it } from 'vitest';
 import { runCli } from '../src/index';
 import { fakeIo, temporaryFolder, type FakeIo } from './fakes';
 import { makeGlb } from './glb';
+
+/** Made when packages are built. */
+const WEIGHTS = join(import.meta.dirname, '../../denoise-weights/weights/rt_hdr_alb_nrm_small.tza');
 
 /** The real loader and the real renderer, on the software GPU. */
 async function glanz(argv: readonly string[], cwd: string, io: FakeIo = fakeIo(cwd)) {
@@ -110,6 +113,27 @@ describe('a red square', () => {
     expect([...exr.channels.keys()].filter((name) => name.startsWith('light.'))).toEqual([]);
     expect(at('variance.R', 8, 8)).toBeGreaterThanOrEqual(0);
     expect(at('variance.R', 8, 8)).toBeLessThan(0.01);
+  });
+
+  it.skipIf(!existsSync(WEIGHTS))('has less noise in the layer denoised, and the same film', async () => {
+    const folder = cwd();
+    // More than 32 samples: the variance of the film is known.
+    const argv = ['red.glb', '--size', '48x32', '--max-depth', '4', '--bits', '32'];
+    const layers = async (name: string, ...more: string[]) => {
+      const { code, err } = await glanz([...argv, ...more, '-o', name], folder);
+      expect(code, err).toBe(0);
+      return decodeExr(new Uint8Array(readFileSync(join(folder, name)))).channels;
+    };
+    const plain = await layers('plain.exr', '--samples', '36');
+    const denoised = await layers('denoised.exr', '--samples', '36', '--denoise', 'fast');
+    const reference = await layers('reference.exr', '--samples', '512', '--seed', '9');
+    for (const name of ['R', 'G', 'B', 'A']) expect(denoised.get(name)).toEqual(plain.get(name));
+    const error = (image: typeof plain, prefix: string) =>
+      ['R', 'G', 'B'].reduce((sum, name) => {
+        const exact = reference.get(name)!.data;
+        return image.get(`${prefix}${name}`)!.data.reduce((all, value, i) => all + (value - exact[i]!) ** 2, sum);
+      }, 0);
+    expect(error(denoised, 'denoised.')).toBeLessThan(0.95 * error(denoised, ''));
   });
 
   it('gives the same bytes for the same seed, others for another', async () => {
