@@ -38,8 +38,7 @@ export async function createImageDenoiser(
   const denoiser = await FilmDenoiser.create(device, weights as { color: Uint8Array }, { maxSubmitMs: 100, signal });
   return {
     // The tracers of the backend are these.
-    denoise: async (tracer, aborted) =>
-      denoiser.read(await denoiser.denoiseTracer(tracer as PathTracer, { signal: aborted })),
+    denoise: (tracer, aborted) => (tracer as PathTracer).denoised(denoiser, { signal: aborted }),
     destroy: () => denoiser.destroy(),
   };
 }

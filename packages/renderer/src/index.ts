@@ -24,6 +24,7 @@ export type {
   RenderProgress,
   RenderStatistics,
   Sampler,
+  TracerDenoiser,
 } from './options';
 export { warmUp, type WarmUpOptions } from './warm-up';
 export { CostModel } from './schedule/cost-model';

@@ -199,6 +199,14 @@ export interface HistoryFrame {
   readonly samples: number;
 }
 
+/** What {@link PathTracer.denoised} needs of a denoiser: `FilmDenoiser` of `@glanz/denoise/film` has it. */
+export interface TracerDenoiser<Tracer, Result> {
+  /** Denoises what a tracer shows, with its AOVs `albedo` and `normal` as guides. */
+  denoiseTracer(tracer: Tracer, options?: { readonly signal?: AbortSignal }): Promise<Result>;
+  /** Copies a result to the CPU: linear RGBA, stride 4, top row first. */
+  read(result: Result): Promise<Float32Array<ArrayBuffer>>;
+}
+
 /** Where an AOV lies on the GPU, see {@link PathTracer.aov}. */
 export interface FilmAov {
   /**

@@ -25,6 +25,7 @@ import type {
   RenderOptions,
   RenderProgress,
   RenderStatistics,
+  TracerDenoiser,
 } from './options';
 import { pickPixel } from './camera/pick';
 import { prepareTracer, type Prepared } from './prepare';
@@ -274,6 +275,28 @@ export class PathTracer extends TracerEdits {
     if (layer !== 'beauty' && layer !== 'variance' && !this.aovs.includes(layer))
       await this.setAovs([...this.aovs, layer]);
     return this.#session.read(layer);
+  }
+
+  /**
+   * The image denoised, for stills: linear RGBA, stride 4, top row first. The film stays as it is. Requests the AOVs
+   * `albedo` and `normal` where they are not, as {@link read} does.
+   *
+   * @param denoiser On this tracer's device; it stays the caller's to destroy.
+   * @param options `signal` ends it with the signal's reason.
+   * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`, `renderer/gpu-error`; and what the denoiser
+   * throws.
+   * @example
+   * const denoiser = await FilmDenoiser.create(device, { color: weights }); // of @glanz/denoise/film
+   * const pixels = await tracer.denoised(denoiser);
+   */
+  async denoised<Result>(
+    denoiser: TracerDenoiser<PathTracer, Result>,
+    options: { readonly signal?: AbortSignal } = {},
+  ): Promise<Float32Array<ArrayBuffer>> {
+    this.#check();
+    const guides = (['albedo', 'normal'] as const).filter((name) => !this.aovs.includes(name));
+    if (guides.length > 0) await this.setAovs([...this.aovs, ...guides], options);
+    return denoiser.read(await denoiser.denoiseTracer(this, options));
   }
 
   /**

@@ -315,3 +315,27 @@ it('leaves the programs of tracers without AOVs alone', async () => {
   expect(programs.some((code) => /aov_/.test(code) && /history_moves/.test(code))).toBe(true);
   tracer.destroy();
 });
+
+it('denoised() gives a denoiser its guides, and leaves the film as it is', async () => {
+  const tracer = await render(diffuse(), 4);
+  const film = await tracer.read('beauty');
+  const { signal } = new AbortController();
+  const pixels = await tracer.denoised(
+    {
+      async denoiseTracer(given: PathTracer, asked) {
+        expect([given === tracer, asked?.signal === signal]).toEqual([true, true]);
+        expect([...given.aovs].sort()).toEqual(['albedo', 'normal']);
+        return readAov(device, given, 'albedo');
+      },
+      read: (albedo) => Promise.resolve(new Float32Array(albedo)),
+    },
+    { signal },
+  );
+  // Without the coverage, which the layer has beside it.
+  expect(pixels).toEqual((await tracer.read('albedo')).filter((_, i) => i % 4 !== 3));
+  expect(await tracer.read('beauty')).toEqual(film);
+  tracer.destroy();
+  await expect(
+    tracer.denoised({ denoiseTracer: () => Promise.reject(), read: () => Promise.reject() }),
+  ).rejects.toThrow('destroyed');
+});
