@@ -43,6 +43,8 @@ function watchPage(page: Page): string[] {
 }
 
 test('all pages load without an error, and every internal link and anchor leads somewhere', async ({ page }) => {
+  // More than a hundred pages.
+  test.setTimeout(600_000);
   const complaints = watchPage(page);
   const pages = sitePages();
   expect(pages.length).toBeGreaterThan(25);
