@@ -182,44 +182,50 @@ export class FilmDenoiser {
 
   /** @throws {DenoiseError} `denoise/memory`. */
   async #prepare(width: number, height: number, known: boolean): Promise<Buffers> {
-    const variance = known ? 16 * width * height : 16;
-    const kept = this.#buffers;
-    if (kept?.width === width && kept.height === height && kept.variance.size === variance) return kept;
-    this.#release();
-    const tiles = 16 * Math.ceil(width / BLEND_TILE) * Math.ceil(height / BLEND_TILE);
     const image = (name: string, usage: number, size = 16 * width * height) => ({
       label: `denoise ${name}`,
       size,
       usage: STORAGE | usage,
     });
-    const made = await tryBuffers(this.#device, [
+    const variance = image('variance', COPY_DST, known ? 16 * width * height : 16);
+    const kept = this.#buffers;
+    if (kept?.width === width && kept.height === height) {
+      // The last result may be on a screen: it stays until the next one.
+      if (kept.variance.size === variance.size) return kept;
+      const [made] = await this.#make(width, height, [variance]);
+      kept.variance.destroy();
+      return (this.#buffers = { ...kept, variance: made as GPUBuffer });
+    }
+    this.#release();
+    const tiles = 16 * Math.ceil(width / BLEND_TILE) * Math.ceil(height / BLEND_TILE);
+    const [size, film, held, denoised, result, errorTiles, known_] = (await this.#make(width, height, [
       { label: 'denoise size', size: 16, usage: UNIFORM | COPY_DST },
       image('film', COPY_DST),
       image('held', 0),
       image('denoised', COPY_SRC),
       image('result', COPY_SRC | COPY_DST),
       image('tiles', 0, tiles),
-      image('variance', COPY_DST, variance),
-    ]);
+      variance,
+    ])) as [GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer];
+    const buffers = { width, height, size, film, held, denoised, result, tiles: errorTiles, variance: known_ };
+    return (this.#buffers = buffers);
+  }
+
+  /** @throws {DenoiseError} `denoise/memory`, `denoise/destroyed`. */
+  async #make(
+    width: number,
+    height: number,
+    descriptors: readonly GPUBufferDescriptor[],
+  ): Promise<readonly GPUBuffer[]> {
+    const made = await tryBuffers(this.#device, descriptors);
     if (!made)
       throw new DenoiseError(
         'denoise/memory',
         `The GPU has no memory for the images of ${width} × ${height} pixels around the network: denoise a smaller image.`,
       );
-    const [size, film, held, denoised, result, errorTiles, known_] = made as [
-      GPUBuffer,
-      GPUBuffer,
-      GPUBuffer,
-      GPUBuffer,
-      GPUBuffer,
-      GPUBuffer,
-      GPUBuffer,
-    ];
-    const buffers = { width, height, size, film, held, denoised, result, tiles: errorTiles, variance: known_ };
-    if (this.#destroyed) for (const buffer of gpuBuffers(buffers)) buffer.destroy();
+    if (this.#destroyed) for (const buffer of made) buffer.destroy();
     this.#expectAlive();
-    this.#buffers = buffers;
-    return buffers;
+    return made;
   }
 
   async #run(images: FilmImages, { blend = true, ...options }: DenoiseFilmOptions): Promise<DenoisedFilm> {

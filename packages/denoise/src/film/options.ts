@@ -64,7 +64,7 @@ export interface DenoiseFilmOptions extends DenoiseOptions {
 export interface DenoisedFilm {
   /**
    * Linear radiance and the film's alpha, four floats a pixel; usages `STORAGE` and `COPY_SRC`. It belongs to the
-   * denoiser, which writes the next result into it.
+   * denoiser, which writes the next result into it, and frees it where that has another size.
    */
   readonly buffer: GPUBuffer;
   readonly width: number;
