@@ -6,6 +6,7 @@ export default glanzPackage({
   orbit: 'src/orbit.ts',
   load: 'src/load.ts',
   engine: 'src/engine.ts',
+  denoise: 'src/denoise.ts',
   'fit-camera': 'src/fit-camera.ts',
   'render-image': 'src/render-image.ts',
 });

@@ -147,6 +147,7 @@ export default defineConfig({
           { text: 'A product shot', link: '/guide/product-shot' },
           { text: 'A configurator', link: '/guide/configurator' },
           { text: 'Performance', link: '/guide/performance' },
+          { text: 'Denoising', link: '/guide/denoising' },
           { text: 'Troubleshooting', link: '/guide/troubleshooting' },
           { text: 'Questions', link: '/guide/faq' },
         ],

@@ -89,6 +89,9 @@ export function checkSettings(options: ViewerOptions): void {
     if (value !== undefined) checkedOption(name, value);
   }
   if (options.orbitLimits !== undefined) checkedLimits(options.orbitLimits);
+  const { denoise } = options;
+  if (denoise !== undefined && typeof denoise !== 'function')
+    throw wrong('denoise', denoise, 'made by denoising()', 'viewer/option');
   const depth = options.preview?.maxDepth;
   if (depth !== undefined) checkedOption('maxDepth', depth, 'preview.maxDepth');
   for (const name of Object.keys(RANGES) as (keyof typeof RANGES)[]) {

@@ -48,7 +48,7 @@ export class Display {
   }
 
   /**
-   * Compiles what drawing needs, and gives the canvas to the device.
+   * Compiles what drawing needs, and gives the canvas to the device. Where it throws, the caller destroys the device.
    *
    * @param wanted Whether it is still wanted, once the shaders are there.
    * @throws {ToneMapError} `tonemap/pipeline`; {ViewerError} `viewer/no-canvas`, `viewer/gpu`, `viewer/out-of-memory`;
@@ -61,7 +61,11 @@ export class Display {
     wanted: () => boolean,
   ): Promise<Display> {
     const format = navigator.gpu.getPreferredCanvasFormat();
-    const passing = withErrorScopes(device, 'drawing', () => ToneMapPass.create(device, { format, ...view }));
+    let uniforms: GPUBuffer;
+    const passing = withErrorScopes(device, 'drawing', () => {
+      uniforms = device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST });
+      return ToneMapPass.create(device, { format, ...view });
+    });
     passing.catch(() => undefined);
     try {
       const [pass, blend] = await Promise.all([passing, compileBlend(device)]);
@@ -72,15 +76,8 @@ export class Display {
           'viewer/no-canvas',
           'The canvas has no WebGPU context: use a canvas without a context of another kind.',
         );
-      const uniforms = await withErrorScopes(device, 'drawing', () =>
-        device.createBuffer({ label: 'glanz viewer blend', size: 32, usage: UNIFORM | COPY_DST }),
-      );
-      if (!wanted()) {
-        uniforms.destroy();
-        throw destroyed();
-      }
       context.configure({ device, format, alphaMode: 'premultiplied' });
-      return new Display(canvas, device, context, pass, blend, uniforms);
+      return new Display(canvas, device, context, pass, blend, uniforms!);
     } catch (error) {
       passing.then(
         (pass) => pass.destroy(),
@@ -215,10 +212,8 @@ async function compileBlend(device: GPUDevice): Promise<GPUComputePipeline> {
       compute: { module, entryPoint: 'viewer_blend' },
     });
   } catch (cause) {
-    throw new ViewerError(
-      'viewer/gpu',
-      `The GPU's driver did not compile the shader that draws the image: ${(cause as Error).message}. Update the driver, or use another browser.`,
-      { cause },
-    );
+    throw new ViewerError('viewer/gpu', `The GPU refused the shader for drawing: ${(cause as Error).message}`, {
+      cause,
+    });
   }
 }

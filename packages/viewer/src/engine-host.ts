@@ -1,6 +1,7 @@
 import type { PathTracer, PathTracerOptions, RenderProgress } from '@glanz/renderer';
 import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
+import type { DenoiseSession } from './denoise-session';
 import type { ViewerState } from './events';
 
 /** What an `Engine` requests from its application, and reports to it. */
@@ -12,12 +13,15 @@ export interface EngineHost {
   /** The camera for an image of this width over height. */
   readonly camera: (aspect: number) => Camera;
   readonly state: (state: ViewerState) => void;
-  /** The image has more samples; those of previews are not reported. */
-  readonly sample: (progress: RenderProgress) => void;
+  /** The image has more samples; those of previews are not reported. `denoised`: whether what is shown is denoised. */
+  readonly sample: (progress: RenderProgress, denoised: boolean) => void;
   /** The image has all it was asked for, so many milliseconds after the last change. */
   readonly converged: (samples: number, milliseconds: number) => void;
-  /** An image has gone to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels. */
-  readonly drawn: (preview: boolean, milliseconds: number, size: readonly [number, number]) => void;
+  /**
+   * An image has gone to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels,
+   * denoised or not.
+   */
+  readonly drawn: (preview: boolean, milliseconds: number, size: readonly [number, number], denoised: boolean) => void;
   /** The film was cleared: what it shows from now on is another image. */
   readonly restarted?: () => void;
   readonly error: (error: unknown, retry?: () => void) => void;
@@ -65,6 +69,8 @@ export interface EngineSettings extends ToneMapOptions {
    * time.
    */
   keepSamples?: boolean | undefined;
+  /** Denoises images. The engine destroys it with itself. With a change goes `restart()`, and its `destroy()`. */
+  denoise?: DenoiseSession | undefined;
   /** Whether the first device warms up until there is a scene. Default: unless the adapter is software. */
   readonly warmUp?: boolean | undefined;
 }

@@ -83,7 +83,7 @@ export class Engine {
     );
     // All warms up while the first model loads.
     this.#connection.ready.then(
-      () => this.device && this.#builder && this.#preparation.warmUp(this.device, this.#builder, settings.warmUp),
+      () => this.device && this.#preparation.warmUp(this.device, this.#builder, settings.warmUp),
       () => undefined,
     );
     void this.#loop.run();
@@ -143,7 +143,7 @@ export class Engine {
 
   /** Edits that wait for the next frame. */
   get waiting(): number {
-    return this.#loop.waiting;
+    return this.#loop.edits.size;
   }
 
   /** Adds no samples while it is set, but for one after each change. */
@@ -180,7 +180,7 @@ export class Engine {
     this.#failed = false;
     try {
       await untilAborted(this.connect(), signal);
-      this.#loop.clearEdits(abortError('another scene was shown'));
+      this.#loop.edits.clear(abortError('another scene was shown'));
       return await this.#prepare(source, options);
     } catch (error) {
       this.#keepFormer(failed);
@@ -225,7 +225,7 @@ export class Engine {
       Object.assign(this.settings, this.#connection.view);
       throw error;
     }
-    this.redraw();
+    this.#loop.redraw();
   }
 
   /** Starts the present work again, with settings that have changed. */
@@ -234,8 +234,13 @@ export class Engine {
     this.#loop.restart();
   }
 
-  /** Draws with the next frame of the screen. */
+  /** Draws the film with the next frame of the screen, as it is now. */
   redraw(): void {
+    const { denoise } = this.settings;
+    if (denoise) {
+      denoise.forget();
+      this.restart();
+    }
     this.#loop.redraw();
   }
 
@@ -253,6 +258,7 @@ export class Engine {
     this.#destroyed = true;
     this.#preparation.destroy();
     this.#loop.destroy();
+    this.settings.denoise?.destroy();
     this.#connection.destroy();
     this.#hierarchies?.destroy();
     this.#tracerDevice = undefined;
@@ -261,14 +267,19 @@ export class Engine {
 
   /** Options of each tracer. */
   #tracerOptions(): Partial<PathTracerOptions> {
-    const { maxDepth, background, tracer } = this.settings;
-    const builder = this.#builder;
-    return { ...(builder ? { hierarchies: builder } : {}), ...tracer, maxDepth, background };
+    const { maxDepth, background, tracer, denoise } = this.settings;
+    return {
+      hierarchies: this.#builder,
+      ...tracer,
+      ...(denoise ? { aovs: denoise.aovs(tracer.aovs) } : {}),
+      maxDepth,
+      background,
+    };
   }
 
-  get #builder(): RememberingHierarchies | undefined {
-    if (!this.#destroyed) this.#hierarchies ??= new RememberingHierarchies();
-    return this.#hierarchies;
+  /** Asked for only while there is a device: its workers are ended with that. */
+  get #builder(): RememberingHierarchies {
+    return (this.#hierarchies ??= new RememberingHierarchies());
   }
 
   /** @param former The tracer whose device was lost, and whose samples were kept. */
@@ -277,7 +288,7 @@ export class Engine {
     { signal, onProgress, onTaken }: ShowOptions,
     former?: PathTracer,
   ): Promise<PathTracer> {
-    if (!former) this.#loop.tryFullSize();
+    if (!former) this.#loop.films.forget();
     const options = (either: AbortSignal) => {
       const [width, height] = this.imageSize;
       return {
@@ -293,7 +304,7 @@ export class Engine {
       const spec = source(former);
       const ready = async (tracer: PathTracer) => {
         await spec.ready?.(tracer);
-        this.#loop.adopt(tracer);
+        this.#loop.films.adopt(tracer, this.settings.maxDepth);
         restored = !!former && (await this.#loop.restore(tracer));
       };
       return { ...spec, ready };

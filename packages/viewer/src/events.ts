@@ -27,16 +27,21 @@ export interface ViewerEvents {
   error: { readonly error: unknown; readonly message: string; readonly code: string; readonly retry?: () => void };
   /**
    * The viewer works around something: an environment cannot be fetched or read, and a studio lights the model
-   * (`viewer/environment`; `error.cause` is what went wrong); or there is no GPU (`renderer/no-adapter`,
+   * (`viewer/environment`; `error.cause` is what went wrong); the image cannot be denoised and is shown with its noise
+   * (`viewer/denoise`, likewise); or there is no GPU (`renderer/no-adapter`,
    * `renderer/no-device`), and the viewer asks for it again for about two seconds before `load()` fails.
    */
   warning: { readonly error: GlanzError; readonly message: string; readonly code: string };
-  /** The image has more samples. `remainingMs` is an estimate, `Infinity` where there is none. */
+  /**
+   * The image has more samples. `remainingMs` is an estimate, `Infinity` where there is none. `denoised`: whether the
+   * image on the canvas is denoised.
+   */
   sample: {
     readonly samples: number;
     readonly target: number;
     readonly samplesPerSecond: number;
     readonly remainingMs: number;
+    readonly denoised: boolean;
   };
   /** The image has all samples, or is as free of noise as asked for. */
   converged: {
@@ -56,9 +61,15 @@ export interface ViewerEvents {
   state: { readonly state: ViewerState };
   /**
    * An image has gone to the canvas. `preview`: a small one of a view that moves; `milliseconds`: what it took to
-   * make.
+   * make; `denoised`: the film is shown denoised.
    */
-  frame: { readonly preview: boolean; readonly milliseconds: number; readonly width: number; readonly height: number };
+  frame: {
+    readonly preview: boolean;
+    readonly milliseconds: number;
+    readonly width: number;
+    readonly height: number;
+    readonly denoised: boolean;
+  };
   /** A click or tap without a drag, and what lies there. CSS pixels from the canvas's upper left corner. */
   pick: { readonly hit: PickResult | undefined; readonly x: number; readonly y: number };
 }

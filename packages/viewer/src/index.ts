@@ -6,6 +6,7 @@ export type { BlobOptions } from './options';
 export type { ImageProgress } from './render-image';
 export type { MaterialEdit } from './material-colors';
 export type { ControlOptions } from './controls';
+export type { Denoising } from './denoise-session';
 export type { EnvironmentSource, ModelSource } from './load';
 export type { Orbit, OrbitLimits, Vector } from './orbit-state';
 export type { Projection } from './project';

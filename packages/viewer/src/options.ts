@@ -4,9 +4,10 @@ import type { RenderOptionName } from '@glanz/renderer/options';
 import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMap } from '@glanz/tonemap';
 import type { ControlOptions } from './controls';
+import type { Denoising } from './denoise-session';
 import type { EnvironmentSource } from './load';
 import type { OrbitLimits } from './orbit-state';
-import { type ImageProgress } from './render-image';
+import { type ImageProgress } from './render-copy';
 
 /** Options of `Viewer.toBlob`. */
 export interface BlobOptions {
@@ -62,6 +63,11 @@ export interface ViewerOptions {
   readonly exposure?: number;
   /** Default `neutral`. Changeable. */
   readonly toneMap?: ToneMap;
+  /**
+   * Denoises images while they have few samples: `denoising()` of `@glanz/viewer/denoise` makes it. `toBlob()` gives
+   * denoised images too; EXR files hold the film as it is. Default: none. Changeable.
+   */
+  readonly denoise?: Denoising | undefined;
   /** Variant of the model, by name. Default: its own materials. Changed by `setVariant()`. */
   readonly variant?: string;
   /**

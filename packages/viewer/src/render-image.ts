@@ -1,45 +1,9 @@
 import type { PathTracer } from '@glanz/renderer';
 import type { Engine } from './engine';
 import { ViewerError } from './errors';
+import { renderCopy, type RenderImageOptions } from './render-copy';
 
-/** How far the rendering of an image has come. */
-export interface ImageProgress {
-  /** Samples per pixel so far. */
-  readonly samples: number;
-  /** Samples per pixel at which the image is finished at the latest. */
-  readonly target: number;
-  /** Estimated milliseconds to the end; `Infinity` before the first sample. */
-  readonly remainingMs: number;
-  /** Share of the work that is done, 0..1. */
-  readonly share: number;
-}
-
-/** Options of {@link renderImage}. */
-export interface RenderImageOptions {
-  /** Pixels, whole numbers from 1. */
-  readonly width: number;
-  readonly height: number;
-  /** Samples per pixel; with `noise`, the maximum. */
-  readonly samples: number;
-  /** Stop where this relative noise is reached; see `RenderOptions.noise` of the renderer. Default: none. */
-  readonly noise?: number | undefined;
-  /** What is behind the model. Default: as on the screen. */
-  readonly background?: 'environment' | 'transparent' | undefined;
-  readonly onProgress?: ((progress: ImageProgress) => void) | undefined;
-  readonly signal?: AbortSignal | undefined;
-}
-
-/** Progress of a render that runs until a number of samples or a noise target. */
-export const imageProgress = (
-  samples: number,
-  target: number,
-  elapsedMs: number,
-  remainingMs: number,
-  noise: boolean,
-): ImageProgress => {
-  const share = noise ? elapsedMs / (elapsedMs + remainingMs || 1) : samples / target;
-  return { samples, target, remainingMs, share: Number.isFinite(remainingMs) ? Math.min(1, share) : 0 };
-};
+export { imageProgress, type ImageProgress, type RenderImageOptions } from './render-copy';
 
 /**
  * Renders the scene and the view that an engine shows, at any size, on a path tracer of its own. The screen's image
@@ -53,34 +17,5 @@ export const imageProgress = (
  * @throws {RenderError} `renderer/size`, `renderer/samples`
  * @throws the signal's reason, when aborted.
  */
-export async function renderImage(engine: Engine, options: RenderImageOptions): Promise<PathTracer> {
-  const { width, height, samples, noise, background, onProgress, signal } = options;
-  signal?.throwIfAborted();
-  const copy = engine.copyFor(width / height);
-  if (!copy && engine.state === 'recovering')
-    throw new ViewerError('viewer/device-lost', 'The GPU was lost. Render the image again when another one is in use.');
-  if (!copy) throw new ViewerError('viewer/no-scene', 'There is no scene to render: await load() first.');
-  const tracer = await copy.create({
-    width,
-    height,
-    ...(background ? { background } : {}),
-    ...(signal ? { signal } : {}),
-  });
-  try {
-    await copy.ready?.(tracer);
-    for await (const progress of tracer.render({
-      samples,
-      ...(noise === undefined ? {} : { noise }),
-      ...(signal ? { signal } : {}),
-    })) {
-      onProgress?.(
-        imageProgress(progress.samples, samples, progress.elapsedMs, progress.remainingMs, noise !== undefined),
-      );
-    }
-    signal?.throwIfAborted();
-    return tracer;
-  } catch (error) {
-    tracer.destroy();
-    throw error;
-  }
-}
+export const renderImage = (engine: Engine, options: RenderImageOptions): Promise<PathTracer> =>
+  renderCopy(engine, options, ViewerError);

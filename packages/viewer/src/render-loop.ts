@@ -39,12 +39,14 @@ const imageOf = (tracer: PathTracer): GpuImage => ({ buffer: tracer.beautyBuffer
  * when there is nothing to do or the canvas is out of sight.
  */
 export class RenderLoop {
+  /** Those that wait for the next frame. */
+  readonly edits = new Edits();
+  /** Sizes of the films of tracers. */
+  readonly films = new FilmFit();
   readonly #settings: EngineSettings;
   readonly #host: EngineHost;
   readonly #engine: LoopEngine;
-  readonly #edits = new Edits();
   readonly #visibility: Visibility;
-  readonly #films = new FilmFit();
   readonly #keeper = new FilmKeeper();
   readonly #preview: PreviewController;
   #tracer: PathTracer | undefined;
@@ -110,12 +112,7 @@ export class RenderLoop {
 
   /** Pixels of the image in full, as far as the GPU has memory for them. */
   get imageSize(): Size {
-    return this.#films.sizeFor(this.#film);
-  }
-
-  /** Edits that wait for the next frame. */
-  get waiting(): number {
-    return this.#edits.size;
+    return this.films.sizeFor(this.#film);
   }
 
   get paused(): boolean {
@@ -163,16 +160,6 @@ export class RenderLoop {
     } else this.#restarted();
   }
 
-  /** Takes over the film of a tracer that will be shown, in the size in which it was made. */
-  adopt(tracer: PathTracer): void {
-    this.#films.adopt(tracer, this.#settings.maxDepth);
-  }
-
-  /** Forgets which sizes the GPU had no memory for. */
-  tryFullSize(): void {
-    this.#films.forget();
-  }
-
   /** Puts the samples that were kept into the film of a new tracer. @returns Whether they are in it. */
   async restore(tracer: PathTracer): Promise<boolean> {
     const { kept } = this.#keeper;
@@ -199,12 +186,7 @@ export class RenderLoop {
     apply: (tracer: PathTracer, merged: object) => void | Promise<void>,
     value: object,
   ): Promise<void> {
-    return this.#edits.add(key, (merged) => (this.#tracer ? apply(this.#tracer, merged) : undefined), value);
-  }
-
-  /** Drops the edits that wait. */
-  clearEdits(reason: unknown): void {
-    this.#edits.clear(reason);
+    return this.edits.add(key, (merged) => (this.#tracer ? apply(this.#tracer, merged) : undefined), value);
   }
 
   /** See `Engine.touch`. */
@@ -218,7 +200,7 @@ export class RenderLoop {
   resize(film: Size, canvas: Size): boolean {
     const sameFilm = sameSize(film, this.#film);
     if (sameFilm && sameSize(canvas, this.#canvasSize)) return false;
-    if (!sameFilm) this.#films.forget();
+    if (!sameFilm) this.films.forget();
     this.#film = film;
     this.#canvasSize = canvas;
     return true;
@@ -251,7 +233,7 @@ export class RenderLoop {
   /** Ends the loop and frees the tracer. */
   destroy(): void {
     this.stir();
-    this.#edits.clear(abortError());
+    this.edits.clear(abortError());
     cancelAnimationFrame(this.#frame);
     this.#visibility.destroy();
     this.#tracer?.destroy();
@@ -272,7 +254,7 @@ export class RenderLoop {
       this.#growing = true;
       this.stir();
     };
-    const retry = state === 'done' && this.#smaller ? setTimeout(grow, this.#films.retryMs) : undefined;
+    const retry = state === 'done' && this.#smaller ? setTimeout(grow, this.films.retryMs) : undefined;
     await woken;
     clearTimeout(retry);
     this.#lastStep = performance.now();
@@ -289,7 +271,7 @@ export class RenderLoop {
   }
 
   get #moving(): boolean {
-    return this.#dirtyCamera || this.#edits.size > 0 || this.#host.moving() || performance.now() < this.#settle;
+    return this.#dirtyCamera || this.edits.size > 0 || this.#host.moving() || performance.now() < this.#settle;
   }
 
   /** An image that is as small as it must be to keep up with the controls. */
@@ -305,7 +287,7 @@ export class RenderLoop {
     this.#lastStep = now;
     const full = this.imageSize;
     const plan = this.#preview.plan(full[0] * full[1]);
-    const changed = stepped || this.#dirtyCamera || this.#edits.size > 0;
+    const changed = stepped || this.#dirtyCamera || this.edits.size > 0;
     if (stepped || this.#dirtyCamera) {
       // What stands still keeps its size: samples gather.
       const depth = plan.divisor > 1 ? Math.min(previewDepth, maxDepth) : maxDepth;
@@ -317,7 +299,7 @@ export class RenderLoop {
         .catch((error: unknown) => this.#engine.isCurrent(tracer) && this.#host.error(error));
       this.#settle = now + settleMs;
     }
-    this.#edits.apply(() => this.#edited());
+    this.edits.apply(() => this.#edited());
     if (changed) this.#restarted();
     const before = tracer.samples;
     // In its full size it is the image already, and that gets the requested samples.
@@ -359,11 +341,13 @@ export class RenderLoop {
     })) {
       if (tracer !== this.#tracer) return;
       this.#fresh = true;
-      this.#host.sample({ ...progress, targetSamples: samples });
+      this.#host.sample({ ...progress, targetSamples: samples }, !!this.#settings.denoise?.image(tracer));
       if (keepSamples !== false) this.#keeper.offer(tracer, false);
       this.redraw();
+      await this.#denoise(tracer, signal);
       if (this.#moving) return;
     }
+    await this.#denoise(tracer, signal, true);
     if (tracer !== this.#tracer || signal.aborted || this.#moving || this.#paused) return;
     // Ended by kernels that came late and restarted the film: once more.
     if (!this.#fresh && tracer.samples === 0) return;
@@ -381,13 +365,13 @@ export class RenderLoop {
    */
   async #fit(tracer: PathTracer, size: Size, depth: number, scale = 1): Promise<boolean> {
     try {
-      const restarted = await this.#films.fit(tracer, size, depth, scale);
+      const restarted = await this.films.fit(tracer, size, depth, scale);
       if (scale === 1 && sameSize(size, this.#film)) this.#smaller = false;
       return restarted;
     } catch (error) {
       // A lost device refuses nothing: its successor may have memory for all of it.
       if (!this.#engine.isCurrent(tracer) || isLoss(error)) throw error;
-      this.#films.refuse(tracer, scaledSize(size, scale));
+      this.films.refuse(tracer, scaledSize(size, scale));
       // Once: smaller ones are tried until one fits.
       if (!this.#smaller) this.#host.error(error);
       this.#smaller = true;
@@ -401,8 +385,13 @@ export class RenderLoop {
     if (!this.#smaller) return;
     const display = this.#engine.display();
     void display?.keep(imageOf(tracer), tracer.samples, this.#film);
-    if (await this.#films.grow(tracer, this.#film)) this.#smaller = this.#fresh = this.#done = false;
+    if (await this.films.grow(tracer, this.#film)) this.#smaller = this.#fresh = this.#done = false;
     else display?.forget();
+  }
+
+  /** Shows the film denoised, where that is asked for and due. */
+  async #denoise(tracer: PathTracer, signal: AbortSignal, last?: boolean): Promise<void> {
+    if (await this.#settings.denoise?.offer(tracer, signal, last)) this.redraw();
   }
 
   /** Samples of the image in full. */
@@ -423,6 +412,7 @@ export class RenderLoop {
     this.#keeper.clear();
     this.#changed = performance.now();
     this.#engine.display()?.forget();
+    this.#settings.denoise?.forget();
     this.#host.restarted?.();
   }
 
@@ -430,11 +420,12 @@ export class RenderLoop {
     const tracer = this.#tracer;
     const display = this.#engine.display();
     if (!tracer || !display || !this.#fresh) return;
-    const image = imageOf(tracer);
-    if (!sameSize(image.size, this.imageSize)) display.forget();
+    const denoised = this.#settings.denoise?.image(tracer);
+    const image = denoised ?? imageOf(tracer);
+    if (denoised || !sameSize(image.size, this.imageSize)) display.forget();
     const weight = display.kept > 0 ? previewWeight(tracer.samples, display.kept, this.#settings.samples) : 0;
     if (weight === 0 && display.kept > 0) display.forget();
     display.draw(image, this.#canvasSize, weight);
-    this.#host.drawn(this.#state === 'moving', milliseconds, image.size);
+    this.#host.drawn(this.#state === 'moving', milliseconds, image.size, !!denoised);
   }
 }

@@ -7,8 +7,8 @@ import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap/tone-map';
 import type { checkedOption, checkedSetting } from './checks';
 import type { Emitter } from './emitter';
 import type { Engine } from './engine';
-import { ViewerError } from './errors';
-import { imageProgress, renderImage } from './render-image';
+import type { ViewerError } from './errors';
+import { imageProgress, renderCopy } from './render-copy';
 import type { ViewerEvents, ViewerState } from './events';
 
 /** Pixels that are tone-mapped in one step, about a millisecond. */
@@ -18,6 +18,7 @@ const STEP = 8192;
 interface Checks {
   readonly checkedOption: typeof checkedOption;
   readonly checkedSetting: typeof checkedSetting;
+  readonly ViewerError: typeof ViewerError;
 }
 
 /** What is read of a viewer. */
@@ -82,6 +83,7 @@ async function screenImage(
   wanted: Wanted,
   { onProgress }: BlobOptions,
   signal: AbortSignal,
+  checks: Checks,
 ): Promise<PathTracer | undefined> {
   const { size, samples, noise, background, usual } = wanted;
   if (background !== viewer.background || (!usual && noise !== undefined)) return undefined;
@@ -125,7 +127,7 @@ async function screenImage(
         ({ state }) => {
           if (state === 'failed')
             reject(
-              new ViewerError(
+              new checks.ViewerError(
                 'viewer/no-scene',
                 'The viewer failed before the image was rendered; see its error event.',
               ),
@@ -170,22 +172,26 @@ async function exrBlob(film: Float32Array, { width, height, samples }: PathTrace
   return new Blob([encodeExr({ width, height, attributes, layers })], { type });
 }
 
-/** Writes the film of a tracer as a file. @throws {ViewerError} `viewer/blob` */
+/** Writes the film of a tracer as a file, denoised where the viewer does. @throws {ViewerError} `viewer/blob` */
 async function fileOf(
   tracer: PathTracer,
+  { settings: { denoise } }: Engine,
   view: ToneMapOptions,
   { type = 'image/png', quality }: BlobOptions,
   signal: AbortSignal,
+  checks: Checks,
 ): Promise<Blob> {
   const { width, height } = tracer;
-  const film = await tracer.read('beauty');
+  const exr = type === 'image/x-exr';
+  const denoised = exr ? undefined : await denoise?.still(tracer, signal);
+  const film = denoised ?? (await tracer.read('beauty'));
   signal.throwIfAborted();
-  if (type === 'image/x-exr') return exrBlob(film, tracer, type);
+  if (exr) return exrBlob(film, tracer, type);
   const codes = await codesOf(film, view, type === 'image/jpeg' ? 'opaque' : 'straight', signal);
   const canvas = new OffscreenCanvas(width, height);
   const context = canvas.getContext('2d');
   if (!context)
-    throw new ViewerError(
+    throw new checks.ViewerError(
       'viewer/blob',
       `The browser has no canvas of ${width} × ${height} pixels to write the image with.`,
     );
@@ -193,15 +199,15 @@ async function fileOf(
   const blob = await canvas
     .convertToBlob({ type, ...(quality === undefined ? {} : { quality }) })
     .catch((cause: unknown) => {
-      throw new ViewerError(
+      throw new checks.ViewerError(
         'viewer/blob',
         `The browser cannot write an image of ${width} × ${height} pixels as "${type}".`,
         { cause },
       );
     });
   if (blob.type !== type)
-    throw new ViewerError('viewer/blob', `This browser cannot write "${type}": choose image/png.`);
-  return blob;
+    throw new checks.ViewerError('viewer/blob', `This browser cannot write "${type}": choose image/png.`);
+  return denoised && denoise && type === 'image/png' ? denoise.mark(blob) : blob;
 }
 
 /** See `Viewer.toBlob`. */
@@ -220,21 +226,25 @@ export async function imageBlob(
   const view = { exposure: viewer.exposure, toneMap: viewer.toneMap };
   try {
     signal.throwIfAborted();
-    const shown = await screenImage(viewer, engine, wanted, options, signal);
-    if (shown) return await fileOf(shown, view, options, signal);
+    const shown = await screenImage(viewer, engine, wanted, options, signal, checks);
+    if (shown) return await fileOf(shown, engine, view, options, signal, checks);
     const { samples, noise, background } = wanted;
     const [width, height] = wanted.size ?? engine.imageSize;
-    const tracer = await renderImage(engine, {
-      width,
-      height,
-      samples,
-      noise,
-      background,
-      onProgress: options.onProgress,
-      signal,
-    });
+    const tracer = await renderCopy(
+      engine,
+      {
+        width,
+        height,
+        samples,
+        noise,
+        background,
+        onProgress: options.onProgress,
+        signal,
+      },
+      checks.ViewerError,
+    );
     try {
-      return await fileOf(tracer, view, options, signal);
+      return await fileOf(tracer, engine, view, options, signal, checks);
     } finally {
       tracer.destroy();
     }

@@ -30,10 +30,11 @@ export function reportWarning(events: Events, error: GlanzError): void {
 /** What an engine reports, as events of a viewer. */
 export const engineReports = (events: Events): Omit<EngineHost, 'step' | 'moving' | 'camera'> => ({
   state: (state) => events.emit('state', { state }),
-  sample: ({ samples, targetSamples, samplesPerSecond, remainingMs }) =>
-    events.emit('sample', { samples, target: targetSamples, samplesPerSecond, remainingMs }),
+  sample: ({ targetSamples: target, ...progress }, denoised) =>
+    events.emit('sample', { ...progress, target, denoised }),
   converged: (samples, milliseconds) => events.emit('converged', { samples, milliseconds }),
-  drawn: (preview, milliseconds, [width, height]) => events.emit('frame', { preview, milliseconds, width, height }),
+  drawn: (preview, milliseconds, [width, height], denoised) =>
+    events.emit('frame', { preview, milliseconds, width, height, denoised }),
   error: (error, retry) => reportError(events, error, retry),
   missing: (error) =>
     reportWarning(

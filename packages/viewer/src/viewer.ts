@@ -4,6 +4,7 @@ import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
 import { checkAlive, checkedOption, checkedSetting, checkSettings, sceneOf } from './checks';
 import type { ControlOptions } from './controls';
 import { isAbort } from './aborts';
+import type { Denoising } from './denoise-session';
 import { Emitter, type ListenOptions } from './emitter';
 import { Engine } from './engine';
 import { engineSettings } from './engine-settings';
@@ -18,7 +19,7 @@ import { project, type Projection } from './project';
 import { ViewerCamera } from './viewer-camera';
 import { ViewerEnvironment } from './viewer-environment';
 import { ViewerModel } from './viewer-model';
-import { engineReports, reportError } from './viewer-reports';
+import { engineReports, reportError, reportWarning } from './viewer-reports';
 
 /** @throws {ViewerError} `viewer/no-canvas`, `viewer/option`, `viewer/camera`; {ToneMapError} `tonemap/unknown`. */
 function checkArguments(canvas: HTMLCanvasElement, options: ViewerOptions): void {
@@ -61,6 +62,7 @@ export class Viewer {
       moving: () => this.#camera.moving,
       camera: (aspect) => this.#camera.camera(aspect) as Camera,
     }));
+    this.denoise = options.denoise;
     this.#camera = new ViewerCamera(canvas, options, events, engine);
     this.#environment = new ViewerEnvironment(engine, options);
     this.#model = new ViewerModel(options, events, engine, this.#camera, this.#environment);
@@ -203,7 +205,7 @@ export class Viewer {
     sceneOf(this.#engine);
     const { imageBlob } = await import('./save-image');
     checkAlive(this.#engine);
-    return imageBlob(this, this.#engine, options, { checkedOption, checkedSetting });
+    return imageBlob(this, this.#engine, options, { checkedOption, checkedSetting, ViewerError });
   }
 
   /**
@@ -266,6 +268,23 @@ export class Viewer {
   set toneMap(toneMap: ToneMap) {
     checkToneMapOptions({ toneMap });
     if (toneMap !== this.toneMap) this.#inBackground(this.#engine.setView({ toneMap }));
+  }
+
+  /** See {@link ViewerOptions.denoise}. */
+  get denoise(): Denoising | undefined {
+    return this.#engine.settings.denoise?.source;
+  }
+
+  set denoise(denoise: Denoising | undefined) {
+    checkSettings({ denoise });
+    if (denoise === this.denoise) return;
+    const { settings } = this.#engine;
+    settings.denoise?.destroy();
+    settings.denoise = denoise?.(
+      (error) => reportWarning(this.#events, error),
+      () => this.device,
+    );
+    this.#engine.redraw();
   }
 
   /** See {@link ViewerOptions.samples}. */
