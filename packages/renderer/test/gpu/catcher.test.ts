@@ -45,7 +45,7 @@ function scene({
 
 async function render(made: Scene, extra: Partial<PathTracerOptions> & { samples?: number } = {}): Promise<PathTracer> {
   const tracer = await PathTracer.create(device, made, { ...options, ...extra });
-  for await (const _ of tracer.render({ samples: extra.samples ?? 128, maxSubmitMs: 1000 }));
+  for await (const _ of tracer.render({ samples: extra.samples ?? 32, maxSubmitMs: 1000 }));
   return tracer;
 }
 async function image(
