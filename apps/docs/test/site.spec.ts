@@ -42,41 +42,6 @@ function watchPage(page: Page): string[] {
   return complaints;
 }
 
-test('all pages load without an error, and every internal link and anchor leads somewhere', async ({ page }) => {
-  // More than a hundred pages.
-  test.setTimeout(600_000);
-  const complaints = watchPage(page);
-  const pages = sitePages();
-  expect(pages.length).toBeGreaterThan(25);
-  const anchors = new Map<string, Set<string>>();
-  const links: { from: string; to: URL }[] = [];
-  // The live page starts a GPU; it has a test of its own.
-  await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
-  for (const path of pages) {
-    await page.goto(`${origin}${path}`, { waitUntil: 'load' });
-    expect.soft(await page.locator('h1').count(), `${path} has one heading`).toBe(1);
-    const found = await page.evaluate(() => ({
-      ids: [...document.querySelectorAll('[id]')].map((element) => element.id),
-      hrefs: [...document.querySelectorAll<HTMLAnchorElement>('a[href]')].map((anchor) => anchor.href),
-      text: document.querySelector('main, #VPContent')?.textContent?.trim().length ?? 0,
-      raw: document.querySelector('.vp-doc')?.textContent?.match(/<!--|@include|\{\{|<<< /)?.[0],
-    }));
-    expect.soft(found.text, `${path} has text`).toBeGreaterThan(200);
-    expect.soft(found.raw, `${path} shows markup`).toBeUndefined();
-    anchors.set(path, new Set(found.ids));
-    links.push(...found.hrefs.map((href) => ({ from: path, to: new URL(href) })));
-  }
-  const lost = links
-    .filter(({ to }) => to.origin === origin)
-    .filter(({ to }) => {
-      if (to.pathname.startsWith('/playground/')) return fileFor(to.pathname) === undefined;
-      const ids = anchors.get(to.pathname);
-      return !ids || (to.hash !== '' && !ids.has(decodeURIComponent(to.hash.slice(1))));
-    });
-  expect([...new Set(lost.map(({ from, to }) => `${from} → ${to.pathname}${to.hash}`))]).toEqual([]);
-  expect(complaints).toEqual([]);
-});
-
 const WIDTHS = [360, 768, 1280] as const,
   SCHEMES = ['light', 'dark'] as const;
 const LOOKS = WIDTHS.flatMap((width) => SCHEMES.map((scheme) => [width, scheme] as const));
@@ -107,7 +72,7 @@ const isFull = process.env['GLANZ_FULL'] !== undefined;
 /**
  * In which widths and themes a page is looked at: one of each kind in all three widths and both themes, with all six
  * pairs on any two kinds that follow each other; others that are listed below in one pair, alternately, and so each
- * fifth page of the generated reference. `npm test -- --full` looks at all pages in all six.
+ * fifth page of the generated reference. `npm test -- --full` opens all pages, in all six.
  */
 function looksOf(path: string, index: number): readonly (readonly [number, 'light' | 'dark'])[] {
   if (isFull) return LOOKS;
@@ -117,9 +82,48 @@ function looksOf(path: string, index: number): readonly (readonly [number, 'ligh
   return [LOOKS[index % LOOKS.length]!];
 }
 
-test('axe finds nothing on any page, light and dark, at three widths', async ({ page }) => {
+/** What a document says for itself, its links as they stand. Runs in the page. */
+function inspect(document: Document) {
+  return {
+    headings: document.querySelectorAll('h1').length,
+    ids: [...document.querySelectorAll('[id]')].map((element) => element.id),
+    hrefs: [...document.querySelectorAll('a[href]')].map((anchor) => anchor.getAttribute('href') ?? ''),
+    text: document.querySelector('main, #VPContent')?.textContent?.trim().length ?? 0,
+    raw: document.querySelector('.vp-doc')?.textContent?.match(/<!--|@include|\{\{|<<< /)?.[0],
+  };
+}
+
+/** {@link inspect} of a page as it is served, before any script has run. */
+async function inspectServed(page: Page, path: string): Promise<ReturnType<typeof inspect>> {
+  const html = readFileSync(fileFor(path)!, 'utf8');
+  const handle = await page.evaluateHandle((text) => new DOMParser().parseFromString(text, 'text/html'), html);
+  return handle.evaluate(inspect);
+}
+
+test('all pages load without an error, every internal link and anchor leads somewhere, and axe finds nothing, light and dark, at three widths', async ({
+  page,
+  context,
+}) => {
   // Dozens of pages, several times each.
   test.setTimeout(isFull ? 7_200_000 : 900_000);
+  const complaints = watchPage(page);
+  const parser = await context.newPage();
+  const pages = sitePages();
+  expect(pages.length).toBeGreaterThan(25);
+  expect(
+    KINDS.filter((path) => !pages.includes(path)),
+    'kinds without a page',
+  ).toEqual([]);
+  const anchors = new Map<string, Set<string>>();
+  const links: { from: string; to: URL }[] = [];
+  const note = (path: string, found: ReturnType<typeof inspect>) => {
+    expect.soft(found.headings, `${path} has one heading`).toBe(1);
+    expect.soft(found.text, `${path} has text`).toBeGreaterThan(200);
+    expect.soft(found.raw, `${path} shows markup`).toBeUndefined();
+    anchors.set(path, new Set([...(anchors.get(path) ?? []), ...found.ids]));
+    links.push(...found.hrefs.map((href) => ({ from: path, to: new URL(href, `${origin}${path}`) })));
+  };
+  // The live page starts a GPU; it has a test of its own.
   await page.addInitScript(() => Object.defineProperty(navigator, 'gpu', { value: undefined, configurable: true }));
   // Colours that fade from one theme to the other are looked at when they have.
   await page.addInitScript(() =>
@@ -131,12 +135,8 @@ test('axe finds nothing on any page, light and dark, at three widths', async ({ 
   );
   const faults = new Map<string, string[]>();
   const report = (fault: string, where: string) => void faults.set(fault, [...(faults.get(fault) ?? []), where]);
-  const pages = sitePages();
-  expect(
-    KINDS.filter((path) => !pages.includes(path)),
-    'kinds without a page',
-  ).toEqual([]);
   for (const [index, path] of pages.entries()) {
+    note(path, await inspectServed(parser, path));
     const looks = looksOf(path, index);
     if (looks.length === 0) continue;
     await page.emulateMedia({ colorScheme: looks[0]![1] });
@@ -150,7 +150,18 @@ test('axe finds nothing on any page, light and dark, at three widths', async ({ 
       if ((await page.evaluate(() => document.documentElement.scrollWidth)) > width)
         report('wider than the window', `${path} ${width}`);
     }
+    // Again as scripts have made it.
+    note(path, await (await page.evaluateHandle(() => document)).evaluate(inspect));
   }
+  const lost = links
+    .filter(({ to }) => to.origin === origin)
+    .filter(({ to }) => {
+      if (to.pathname.startsWith('/playground/')) return fileFor(to.pathname) === undefined;
+      const ids = anchors.get(to.pathname);
+      return !ids || (to.hash !== '' && !ids.has(decodeURIComponent(to.hash.slice(1))));
+    });
+  expect.soft([...new Set(lost.map(({ from, to }) => `${from} → ${to.pathname}${to.hash}`))]).toEqual([]);
+  expect.soft(complaints).toEqual([]);
   expect(Object.fromEntries([...faults].map(([fault, where]) => [fault, where.slice(0, 4)]))).toEqual({});
 });
 
