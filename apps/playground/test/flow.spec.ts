@@ -244,7 +244,7 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
   page,
 }) => {
   // One pixel of the film to one of the screen, so that the saved image can be compared; not many of them.
-  await page.setViewportSize({ width: 740, height: 420 });
+  await page.setViewportSize({ width: 740, height: 340 });
   await open(page, 'model=cornell-box&scale=1&samples=2&max-depth=2&environment=studio');
   await finished(page);
   await tab(page, 'Light');
@@ -252,7 +252,7 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
   const beside = async () => {
     const box = (await imageOf(page).boundingBox())!;
     return (
-      await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 4, y: box.y + 120, width: 12, height: 200 } }))
+      await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 4, y: box.y + 80, width: 12, height: 120 } }))
     ).mean;
   };
   await restarting(page, () => page.locator('[data-studio=sunset]').click());
@@ -359,6 +359,8 @@ const veiled = async (page: Page) =>
 test('the floor catches the shadow only; the blurred background is smooth, and saved as it is seen', async ({
   page,
 }) => {
+  // As in the test of light.
+  await page.setViewportSize({ width: 740, height: 420 });
   await open(page, 'model=push-button-low&scale=1&samples=2&max-depth=2');
   await finished(page);
   await tab(page, 'Light');
@@ -366,7 +368,9 @@ test('the floor catches the shadow only; the blurred background is smooth, and s
   await expect(page.locator('#backdrop')).toBeVisible();
   const corner = async (bytes: Buffer) => pixelsOf(page, bytes);
   const box = (await imageOf(page).boundingBox())!;
-  const seen = await corner(await page.screenshot({ clip: { x: box.x + 8, y: box.y + 300, width: 60, height: 120 } }));
+  const seen = await corner(
+    await page.screenshot({ clip: { x: box.x + 8, y: box.y + 0.6 * box.height, width: 40, height: 0.2 * box.height } }),
+  );
   expect(seen.deviation).toBeLessThan(6);
   expect(seen.mean[0]).toBeGreaterThan(60);
   const shown = await photograph(imageOf(page));
