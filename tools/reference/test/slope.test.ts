@@ -14,9 +14,9 @@ describe('convergenceSlope', () => {
 
 describe('measureConvergence', () => {
   it('a renderer without bias converges as one over the number of samples', async () => {
-    const counts = process.env['GLANZ_FULL'] === undefined ? [2, 4, 8, 16] : [2, 4, 8, 16, 32];
+    const counts = process.env['GLANZ_FULL'] === undefined ? [2, 4, 8] : [2, 4, 8, 16, 32];
     const points = await measureConvergence(await testDevice(), new GroundTruth('cornell_diffuse'), counts, 2);
-    // 128 × 128 pixels and two runs: the slope's own error is about 0.012.
+    // 128 × 128 pixels and two runs: the slope's own error is about 0.012 for four numbers of samples, 0.019 for three.
     expect(Math.abs(convergenceSlope(points) + 1)).toBeLessThan(0.05);
   }, 300_000);
 });

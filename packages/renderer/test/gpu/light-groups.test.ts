@@ -81,9 +81,9 @@ describe('light groups', () => {
   });
 
   it('a group holds the light of its lights: as in a scene where the others are dark', async () => {
-    const all = await render(studio(), { samples: 512 });
+    const all = await render(studio(), { samples: 256 });
     for (const name of LIGHTS) {
-      const alone = await render(studio([name]), { samples: 512 });
+      const alone = await render(studio([name]), { samples: 256 });
       const expected = meanOf(await alone.read('beauty'), 16, 0, 0, 16, 16);
       const found = meanOf(await all.readLightGroup(name), 16, 0, 0, 16, 16);
       for (const c of [0, 1, 2] as const) expect(Math.abs(found[c] / expected[c] - 1)).toBeLessThan(0.02);

@@ -171,7 +171,7 @@ it('a batch that the GPU refuses is reported, and the next render gives the whol
 });
 
 it('a GPU that has no memory for more paths at once renders the same image in smaller batches', async () => {
-  const large: PathTracerOptions = { ...options, width: 300, height: 200, pathsInFlight: 1 << 21 };
+  const large: PathTracerOptions = { ...options, width: 150, height: 100, pathsInFlight: 1 << 21 };
   const plain = await PathTracer.create(device, stage(), large);
   recorder.clear();
   for await (const progress of plain.render({ samples: 24, maxSubmitMs: 4000 })) void progress;

@@ -10,7 +10,7 @@ beforeAll(async () => {
 });
 afterAll(() => expectNoGpuErrors());
 
-const SIZE = 24;
+const SIZE = 16;
 const ALBEDO = 0.6;
 /** Points across and down a pixel. */
 const GRID = 16;
