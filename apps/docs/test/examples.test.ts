@@ -290,7 +290,7 @@ describe('progress', () => {
         const button = new EventTarget();
         const stopped = progressive.renderUntilClicked(tracer, button as HTMLButtonElement);
         setTimeout(() => button.dispatchEvent(new Event('click')), 50);
-        expect((await stopped).length).toBe(4 * 8 * 8);
+        expect((await stopped).length).toBe(4 * 4 * 4);
         expect(tracer.samples).toBeLessThan(4096);
         const abort = new AbortController();
         tracer.reset();
@@ -299,7 +299,7 @@ describe('progress', () => {
         // Thousands of samples of few pixels.
       },
       exampleScene(),
-      { width: 8, height: 8 },
+      { width: 4, height: 4 },
     ));
 
   test('edits of every kind', () =>
