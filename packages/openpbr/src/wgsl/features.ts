@@ -40,7 +40,7 @@ export interface OpenPbrFlags {
   /** The table of the losses of mirrors is read: OPENPBR_METAL, OPENPBR_THIN_WALLED or OPENPBR_INNER. */
   readonly OPENPBR_LOSSES: boolean;
   readonly OPENPBR_COAT: boolean;
-  /** A film that interferes on the base. */
+  /** A film that interferes on the base; comes with OPENPBR_METAL or OPENPBR_DIELECTRIC. */
   readonly OPENPBR_THIN_FILM: boolean;
   /** A layer of fibres over everything else. */
   readonly OPENPBR_FUZZ: boolean;
@@ -145,7 +145,7 @@ export function requiredFeatures(
     OPENPBR_THIN_WALLED: thin,
     OPENPBR_LOSSES: metal || thin || inner,
     OPENPBR_COAT: coat,
-    OPENPBR_THIN_FILM: specular && all.some(film),
+    OPENPBR_THIN_FILM: (metal || dielectric) && all.some(film),
     OPENPBR_FUZZ: fuzz,
     OPENPBR_LAYERED: coat || fuzz,
     OPENPBR_DIFFUSE: lambert,
