@@ -343,6 +343,8 @@ test.describe('one page', () => {
   });
 
   test('dropped models: broken ones are reported in a line and the former scene stays, a good one takes its place', async () => {
+    // The image that the test before has begun.
+    await finished(page);
     const before = await photograph(canvasOf(page));
     const good = triangle([0.05, 0.1, 0.9]);
     const bad: [name: string, bytes: Buffer, code: string][] = [
