@@ -26,7 +26,20 @@ export default defineConfig({
   build: {
     target: 'es2022',
     chunkSizeWarningLimit: 900,
-    rolldownOptions: { input: ['index.html', 'configurator.html'].map((page) => `${import.meta.dirname}/${page}`) },
+    rolldownOptions: {
+      input: ['index.html', 'configurator.html'].map((page) => `${import.meta.dirname}/${page}`),
+      output: {
+        // What the denoiser shares with the renderer is one file, not four.
+        codeSplitting: {
+          groups: [
+            {
+              name: 'shared',
+              test: /packages\/(wgsl\/src\/(?!error)|viewer\/src\/visibility|scene\/src\/until-aborted)/,
+            },
+          ],
+        },
+      },
+    },
   },
   plugins: [weslModules(), publishedModules(), basisModule()],
   worker: { format: 'es', plugins: () => [weslModules(), publishedModules(), basisModule()] },

@@ -1,6 +1,11 @@
 import { expect, test, vi } from 'vitest';
 import { stateFromQuery } from '../src/state/address';
 
+test('images are denoised unless the address says otherwise', () => {
+  expect(stateFromQuery('').state.denoise).toBe(true);
+  expect(stateFromQuery('?denoise=off').state.denoise).toBe(false);
+});
+
 test('the tone map has the name of the command line option; the former name works and warns', () => {
   const warn = vi.spyOn(console, 'warn').mockImplementation(() => undefined);
   expect(stateFromQuery('?tone-map=agx&exposure=1').state).toMatchObject({ toneMap: 'agx', exposure: 1 });

@@ -5,6 +5,7 @@ import {
   dataOf,
   errorWith,
   imageOf,
+  noisy,
   pixelsOf,
   renderToFile,
   servePlayground,
@@ -24,7 +25,7 @@ test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
 async function open(page: Page, code = '', query = 'level=low&scale=0.25&samples=6&max-depth=3'): Promise<void> {
-  await page.goto(`${origin}/configurator.html?${query}${code}`);
+  await page.goto(noisy(`${origin}/configurator.html?${query}${code}`));
   await expect(page.locator('#stage')).toHaveAttribute('data-ready', '');
   await done(page);
 }

@@ -8,6 +8,7 @@ import { initialState, type State } from '../src/state/state';
 const edited: State = {
   ...initialState('studio'),
   exposure: 0.7,
+  denoise: false,
   rotation: -35,
   orbit: { target: [0.01, -0.02, 0.123456], distance: 0.4, yaw: 0.3, pitch: -0.2, zoom: 1 },
   materials: { 3: { base_color: [0.1, 0.2, 0.3], specular_roughness: 0.25 }, 11: { base_metalness: 1 } },

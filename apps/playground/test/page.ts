@@ -37,9 +37,16 @@ export const imageOf = (page: Page): Locator => page.locator('#image');
 export const dataOf = async (page: Page, name: string): Promise<string> =>
   (await imageOf(page).getAttribute(`data-${name}`)) ?? '';
 
+/** An address of which images are shown as the film has them, unless it says otherwise. */
+export function noisy(address: string): string {
+  const url = new URL(address);
+  if (!url.searchParams.has('denoise')) url.searchParams.set('denoise', 'off');
+  return url.href;
+}
+
 /** Opens the page and waits for a scene and its controls. */
 export async function open(page: Page, address: string): Promise<void> {
-  await page.goto(address);
+  await page.goto(noisy(address));
   // Where none comes, the messages of the page say why.
   const shown = async () =>
     (await dataOf(page, 'scene')) === ''

@@ -166,8 +166,12 @@ test('the first script is small, and controls come after the first model', async
   expect(bytes).toBeLessThan(12_000);
   const asked: string[] = [];
   page.on('request', (request) => asked.push(request.url()));
-  await open(page);
+  await open(page, 'model=cornell-box&scale=0.25&samples=4&max-depth=3&denoise=on');
   const at = (name: RegExp) => asked.findIndex((url) => name.test(url));
+  // The denoiser comes last.
+  const denoiser = /\/denoise-[^/]+\.js$/;
+  await expect.poll(() => at(/\.tza$/)).toBeGreaterThan(at(denoiser));
+  expect(at(denoiser)).toBeGreaterThan(at(/\/panels-[^/]+\.js$/));
   expect(at(/\/panels-[^/]+\.js$/)).toBeGreaterThan(at(/\/load-worker-[^/]+\.js$/));
   // What the page's own thread has fetched: renderer, energy tables and the viewer's engine for the image (some 160
   // kB), then panels. Workers are not in it.
@@ -178,7 +182,10 @@ test('the first script is small, and controls come after the first model', async
     return [...scripts].reduce((sum, path) => sum + gzipSync(readFileSync(dist + path.slice(1))).length, 0);
   };
   expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(182_000);
-  expect(fetched(asked)).toBeLessThan(203_000);
+  expect(fetched(asked.slice(0, at(denoiser)))).toBeLessThan(203_000);
+  // After that the denoiser with its kernels, and one archive of weights.
+  expect(fetched(asked.slice(at(denoiser)))).toBeLessThan(21_000);
+  expect(asked.filter((url) => url.endsWith('.tza'))).toHaveLength(1);
   // Presets, encoders and decoders are loaded when they are needed.
   expect(
     asked.filter((url) =>

@@ -85,6 +85,8 @@ export class Configurator {
     // Until there is something to see, the page says what it is doing.
     await page.#frame();
     page.#stage.dataset['ready'] = '';
+    if (new URLSearchParams(location.search).get('denoise') !== 'off')
+      page.#viewer.denoise = (await import('../viewer/denoise')).denoising;
   }
 
   /** Shows another button and how long the change took. */
@@ -167,6 +169,8 @@ export class Configurator {
         ...(retry ? { action: { title: 'Try again', run: retry } } : {}),
       });
     });
+    this.#viewer.on('warning', ({ message, code }) => this.#messages.show({ kind: 'note', text: message, code }));
+    this.#viewer.on('frame', ({ denoised }) => (dataset['denoised'] = String(denoised)));
     this.#viewer.on('device-restored', () => this.#messages.clearErrors());
     this.#code.addEventListener('change', () => {
       const configuration = parseOrderCode(this.#code.value);

@@ -22,13 +22,14 @@ export type BehindFor = (aspect: number) => Behind | undefined | Promise<Behind 
 
 async function write(
   tracer: PathTracer,
-  { format }: RenderRequest,
-  context: Context,
+  { format, signal }: RenderRequest,
+  { session: { engine }, store }: Context,
   behind: Behind | undefined,
 ): Promise<Blob> {
-  const { exposure, toneMap } = context.store.state;
+  const { exposure, toneMap } = store.state;
   if (format === 'exr') return new Blob([await imageAsExr(tracer)], { type: 'image/x-exr' });
-  return new Blob([await imageAsPng(tracer, { exposure, toneMap }, format === 'png-16' ? 16 : 8, behind)], {
+  const bits = format === 'png-16' ? 16 : 8;
+  return new Blob([await imageAsPng(engine, tracer, { exposure, toneMap }, bits, behind, signal)], {
     type: 'image/png',
   });
 }

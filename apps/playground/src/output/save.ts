@@ -1,5 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap';
+import type { Engine } from '@glanz/viewer/engine';
 
 /** What lies behind the model in a saved image: sRGB codes of one colour, or of an image of any size. */
 export type Behind = { readonly color: readonly [number, number, number] } | { readonly image: ImageData };
@@ -36,16 +37,19 @@ function sample({ width, height, data }: ImageData, u: number, v: number, channe
   return (at(0, 0) * (1 - fx) + at(1, 0) * fx) * (1 - fy) + (at(0, 1) * (1 - fx) + at(1, 1) * fx) * fy;
 }
 
-/** The image as PNG with 8 or 16 bits a channel, through the tone map. */
+/** The image as PNG with 8 or 16 bits a channel, through the tone map; denoised where the engine's images are. */
 export async function imageAsPng(
+  { settings: { denoise } }: Engine,
   tracer: PathTracer,
   view: Required<ToneMapOptions>,
   bits: 8 | 16,
   behind?: Behind,
+  signal = new AbortController().signal,
 ): Promise<Uint8Array<ArrayBuffer>> {
   const { encodePng } = await import('@glanz/image/png');
   const { width, height, samples } = tracer;
-  const beauty = await tracer.read('beauty');
+  const denoised = await denoise?.still(tracer, signal);
+  const beauty = denoised ?? (await tracer.read('beauty'));
   const codes =
     bits === 8
       ? toneMapPixels(beauty, width, height, { ...view, output: 'uint8' })
@@ -55,7 +59,11 @@ export async function imageAsPng(
     width,
     height,
     data: codes,
-    text: { Software: 'Glanz', Comment: `${samples} samples per pixel` },
+    text: {
+      Software: 'Glanz',
+      Comment: `${samples} samples per pixel`,
+      ...(denoised ? { Denoised: 'Open Image Denoise' } : {}),
+    },
   });
 }
 

@@ -39,6 +39,7 @@ export function stateFromQuery(search: string): { readonly model: SampleName; re
     background: one(query.get('background'), BACKGROUNDS, 'environment'),
     exposure: number(query.get('exposure'), -8, 8, 0),
     toneMap: one(renamed(query, 'tone-map', 'tonemap'), TONE_MAPS, 'neutral'),
+    denoise: query.get('denoise') !== 'off',
     layer: one(query.get('layer'), LAYERS, 'beauty'),
   };
   return { model, state };

@@ -142,6 +142,7 @@ const FIELDS: { readonly [Name in keyof State]?: Read<State[Name]> } = {
   scale: one(SCALES),
   exposure: number(-8, 8),
   toneMap: one(TONE_MAPS),
+  denoise: flag,
   environment: one(ENVIRONMENT_CHOICES),
   studio: one(Object.keys(STUDIOS) as StudioName[]),
   boxes: orNull(list(softBox, MAX_BOXES)),

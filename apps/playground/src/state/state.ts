@@ -73,6 +73,8 @@ export interface State {
   /** EV. */
   readonly exposure: number;
   readonly toneMap: ToneMap;
+  /** Whether images of few samples are shown and saved denoised. */
+  readonly denoise: boolean;
 
   readonly environment: EnvironmentChoice;
   readonly studio: StudioName;
@@ -124,6 +126,7 @@ export function initialState(environment: EnvironmentChoice): State {
     layer: 'beauty',
     exposure: 0,
     toneMap: 'neutral',
+    denoise: true,
     environment,
     studio: 'neutral',
     boxes: null,

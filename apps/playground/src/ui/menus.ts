@@ -41,7 +41,8 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
     const { exposure, toneMap } = store.state;
     // While something moves, the film is that of the preview, which may be much smaller than the screen.
     if (!tracer || !current) return render(bits === 8 ? 'png' : 'png-16');
-    download(await imageAsPng(tracer, { exposure, toneMap }, bits, behind()), `${name()}.png`, 'image/png');
+    const bytes = await imageAsPng(session.engine, tracer, { exposure, toneMap }, bits, behind());
+    download(bytes, `${name()}.png`, 'image/png');
   };
   return [
     element('h2', {}, 'Image'),

@@ -2,7 +2,7 @@ import { RENDER_OPTION_TEXTS } from '@glanz/renderer/options';
 import { LAYER_TITLES, LAYERS } from '../output/layers';
 import type { Scale } from '../state/state';
 import { changer, watch, type Context } from './context';
-import { section, selectField, sliderField } from './fields';
+import { checkField, section, selectField, sliderField } from './fields';
 import { optionSlider } from './option-slider';
 import { Playback } from './playback';
 import { StatisticsPanel } from './statistics';
@@ -19,7 +19,7 @@ const NOISES = ['0', '0.1', '0.05', '0.02', '0.01', '0.005'] as const;
 
 /** Samples, depth, layers, the model's looks and poses, and figures. */
 export function renderPanel(context: Context): HTMLElement[] {
-  const { store, opened, onModel, onStatus, session, pose } = context;
+  const { store, opened, onModel, onStatus, session, pose, fail } = context;
   const change = changer(store);
   const initial = store.state;
   const layer = selectField({
@@ -46,13 +46,23 @@ export function renderPanel(context: Context): HTMLElement[] {
     choices: SCALE_ORDER.map((key) => [key, SCALE_TITLES[key]] as const),
     onInput: change('scale', 'Resolution'),
   });
-  watch(store, ['layer', 'samples', 'noise', 'maxDepth', 'scale'], (state) => {
+  const denoise = checkField({
+    id: 'denoise',
+    label: 'Denoise',
+    value: initial.denoise,
+    onInput: change('denoise', 'Denoise'),
+  });
+  watch(store, ['layer', 'samples', 'noise', 'maxDepth', 'scale', 'denoise'], (state) => {
     layer.set(state.layer);
     samples.set(state.samples);
     noise.set(String(state.noise));
     maxDepth.set(state.maxDepth);
     scale.set(state.scale);
+    denoise.set(state.denoise);
   });
+
+  // Not before the panels.
+  watch(store, ['denoise'], () => import('../viewer/denoise').then(({ applyDenoise }) => applyDenoise(context), fail));
 
   const variant = selectField({
     id: 'variant',
@@ -111,7 +121,15 @@ export function renderPanel(context: Context): HTMLElement[] {
   onModel(showStatistics);
   showStatistics();
   return [
-    section('Sampling', samples.element, noise.element, maxDepth.element, scale.element, layer.element),
+    section(
+      'Sampling',
+      samples.element,
+      noise.element,
+      maxDepth.element,
+      scale.element,
+      layer.element,
+      denoise.element,
+    ),
     looks,
     section('Statistics', statistics.element),
   ];

@@ -35,14 +35,16 @@ export class StatusLine {
     byId('preparing').hidden = true;
   }
 
-  show({ state, samples, target, samplesPerSecond, remainingMs, noise, active }: SessionStatus): void {
+  show({ state, samples, target, samplesPerSecond, remainingMs, noise, active, denoised }: SessionStatus): void {
     const { dataset } = this.#canvas;
     dataset['state'] = state;
     dataset['samples'] = String(samples);
     dataset['target'] = String(target);
     this.#done.value = target > 0 ? Math.min(1, samples / target) : 0;
     this.#done.hidden = state !== 'rendering' && state !== 'paused';
-    const count = `${samples} of ${target} samples`;
+    dataset['denoised'] = String(denoised);
+    const how = denoised ? ' · denoised' : '';
+    const count = `${samples} of ${target} samples${how}`;
     const calm =
       noise === undefined
         ? ''
@@ -56,7 +58,7 @@ export class StatusLine {
       destroyed: '',
       rendering: count + left + calm,
       paused: `${count} · paused`,
-      done: `${samples} samples · done${calm}`,
+      done: `${samples} samples · done${how}${calm}`,
       recovering: 'Waiting for the GPU',
       failed: 'Stopped',
     };

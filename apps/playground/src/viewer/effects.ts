@@ -31,6 +31,8 @@ export function shownFor(scene: Scene, state: State, host: Pick<EffectsHost, 'ri
     maxDepth: state.maxDepth,
     background: filmBackground(state),
     lightGroups: state.relight ? 'each' : 'named',
+    // The guides of the denoiser, which comes later.
+    aovs: state.denoise ? ['albedo', 'normal'] : [],
     ready: async (tracer) => {
       if (state.variant !== null && scene.variants?.includes(state.variant)) await tracer.setVariant(state.variant);
       const known = new Set(tracer.lightGroups.map(({ name }) => name));

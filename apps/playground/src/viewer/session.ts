@@ -1,4 +1,4 @@
-import type { LightGroupMode, PathTracer, PickResult, PrepareProgress } from '@glanz/renderer';
+import type { AovName, LightGroupMode, PathTracer, PickResult, PrepareProgress } from '@glanz/renderer';
 import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import type { Camera, CompressedFormat, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
@@ -20,6 +20,8 @@ export interface SessionStatus {
    */
   readonly noise?: number | undefined;
   readonly active: number;
+  /** Whether the image on the screen is denoised. */
+  readonly denoised: boolean;
 }
 
 export interface SessionEvents {
@@ -46,6 +48,8 @@ export interface Shown {
   readonly maxDepth: number;
   readonly background: 'environment' | 'transparent';
   readonly lightGroups: LightGroupMode;
+  /** First-hit AOVs that are known to be needed: added later, they need other kernels. */
+  readonly aovs: readonly AovName[];
   /** Edits that a new tracer needs before it is shown. */
   readonly ready: (tracer: PathTracer) => Promise<void>;
 }
@@ -66,7 +70,8 @@ export class Session {
   #preparing = 0;
   #film: readonly [number, number] = [0, 0];
   #sampleMs: number | undefined;
-  #progress: Omit<SessionStatus, 'state' | 'samples' | 'target'> = {
+  #denoised = false;
+  #progress: Omit<SessionStatus, 'state' | 'samples' | 'target' | 'denoised'> = {
     samplesPerSecond: 0,
     remainingMs: Infinity,
     active: 1,
@@ -109,7 +114,7 @@ export class Session {
           this.#emitStatus();
         },
         converged: () => this.#emitStatus(),
-        drawn: (_preview, _milliseconds, size) => this.#drawn(size),
+        drawn: (_preview, _milliseconds, size, denoised) => this.#drawn(size, denoised),
         restarted: () => {
           this.#rays.interrupt();
           this.#layers.restarted();
@@ -125,7 +130,10 @@ export class Session {
         tracer: () => this.#engine.tracer,
         fresh: () => this.#engine.fresh,
         report: (error) => this.#report(error),
-        shown: (name) => (canvas.dataset['layer'] = name),
+        shown: (name) => {
+          canvas.dataset['layer'] = name;
+          if (this.#denoised) this.#emitStatus();
+        },
       },
       layer,
       view.layer,
@@ -206,9 +214,9 @@ export class Session {
    */
   async show(source: () => Shown, onProgress: (progress: PrepareProgress) => void = () => undefined): Promise<void> {
     const take = () => {
-      const { scene, camera, maxDepth, background, lightGroups, ready } = source();
+      const { scene, camera, maxDepth, background, lightGroups, aovs, ready } = source();
       Object.assign(this.#engine.settings, { maxDepth, background });
-      return { scene, camera, options: { lightGroups }, ready };
+      return { scene, camera, options: { lightGroups, aovs }, ready };
     };
     this.#preparing++;
     try {
@@ -288,8 +296,12 @@ export class Session {
     return tracer?.pick(x * tracer.width, y * tracer.height);
   }
 
-  #drawn(size: readonly [number, number]): void {
+  #drawn(size: readonly [number, number], denoised: boolean): void {
     this.#canvas.dataset['film'] = size.join(' ');
+    if (denoised !== this.#denoised) {
+      this.#denoised = denoised;
+      this.#emitStatus();
+    }
     const { tracer, waiting } = this.#engine;
     if (tracer) this.#layers.progressed(tracer.samples);
     if (this.#askedAt === undefined || waiting > 0) return;
@@ -309,6 +321,8 @@ export class Session {
       samples: current ? (tracer?.samples ?? 0) : 0,
       target: settings.samples,
       ...this.#progress,
+      // A layer lies over the image.
+      denoised: this.#denoised && this.#canvas.dataset['layer'] === 'beauty',
     });
   }
 }
