@@ -3,31 +3,16 @@ import { createShaderModule } from '@glanz/wgsl';
 import { expect, it } from 'vitest';
 import { requiredFeatures, type OpenPbrFlags } from '../src/wgsl/index';
 import { gpuShader } from './gpu';
+import { LOBES } from './lobes';
 import { uniform } from './random';
 
-/** Parameters that switch lobes on or off, with values that do so, wholly and in part. */
-const LOBES = {
-  base_weight: [0],
-  base_diffuse_roughness: [0.5],
-  base_metalness: [1, 0.5],
-  specular_weight: [0],
-  specular_ior: [0.9, 1.05],
-  specular_roughness_anisotropy: [0.5],
-  transmission_weight: [1, 0.5],
-  subsurface_weight: [1, 0.5],
-  geometry_thin_walled: [true],
-  coat_weight: [1],
-  coat_ior: [0.8],
-  geometry_coat_normal: [[0, 0, 1]],
-  thin_film_weight: [1],
-  fuzz_weight: [1],
-  emission_luminance: [1],
-} as const;
 const FULL = process.env['GLANZ_FULL'] !== undefined;
 
 /** Sets of flags that materials ask for: of each lobe alone, each pair of lobes, and any. */
 function flagSets(): OpenPbrFlags[] {
-  const choices = Object.entries(LOBES).flatMap(([name, values]) => values.map((value) => [name, value] as const));
+  const choices = Object.entries({ ...LOBES, subsurface_weight: [1, 0.5] }).flatMap(([name, values]) =>
+    values.map((value) => [name, value] as const),
+  );
   const next = uniform(11);
   const materials = [
     [],
