@@ -31,6 +31,7 @@ async function run(
   };
   const guide = () => buffer(new Float32Array(4 * PIXELS).fill(0.5));
   const images = { width: WIDTH, height: HEIGHT, color: buffer(film), albedo: guide(), normal: guide() };
+  const spread = variance && buffer(variance);
   const denoiser = await FilmDenoiser.create(
     device,
     { color: randomNetwork(9) },
@@ -39,10 +40,10 @@ async function run(
   try {
     const denoised = await denoiser.read(await denoiser.denoise(images, { blend: false }));
     if (!blend) return { denoised, result: denoised };
-    return { denoised, result: await denoiser.read(await denoiser.denoise({ ...images, variance })) };
+    return { denoised, result: await denoiser.read(await denoiser.denoise({ ...images, variance: spread })) };
   } finally {
     denoiser.destroy();
-    for (const one of [images.color, images.albedo, images.normal]) one.destroy();
+    for (const one of [images.color, images.albedo, images.normal, spread]) one?.destroy();
   }
 }
 

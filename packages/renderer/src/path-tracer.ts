@@ -151,6 +151,18 @@ export class PathTracer extends TracerEdits {
     return this.#session.film.beauty;
   }
 
+  /**
+   * Brings the variance of {@link beautyBuffer} up to date, for kernels that come after: vec4f per pixel as {@link read}
+   * gives the layer `variance`, infinity where it is not known.
+   *
+   * @returns The tracer's own buffer, which the next call writes again; `resize()` frees it.
+   * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`, `renderer/gpu-error`
+   */
+  async varianceBuffer(): Promise<GPUBuffer> {
+    this.#check();
+    return this.#session.reader.varianceBuffer();
+  }
+
   /** The frame that the film showed before it began again, if the same surfaces can be found in it. */
   get history(): HistoryFrame | undefined {
     return this.#session.history;

@@ -15,8 +15,6 @@ import type {
 
 /** From so many samples on a tracer knows the variance of its film. */
 const VARIANCE_SAMPLES = 32;
-/** In place of a variance that is unknown. */
-const UNKNOWN = 1e30;
 
 /** What is kept for images of a size. */
 interface Buffers {
@@ -28,8 +26,8 @@ interface Buffers {
   readonly denoised: GPUBuffer;
   readonly result: GPUBuffer;
   readonly tiles: GPUBuffer;
-  /** Without a known variance, of 16 bytes. */
-  readonly variance: GPUBuffer;
+  /** In place of a variance that is not given. */
+  readonly noVariance: GPUBuffer;
 }
 
 /**
@@ -53,9 +51,6 @@ export class FilmDenoiser {
   readonly #denoiser: Denoiser;
   readonly #kernels: FilmKernels;
   #buffers: Buffers | undefined;
-  #variance:
-    | { readonly tracer: DenoisableTracer; readonly samples: number; readonly data: Float32Array<ArrayBuffer> }
-    | undefined;
   #last: Promise<unknown> = Promise.resolve();
   #destroyed = false;
 
@@ -107,8 +102,7 @@ export class FilmDenoiser {
   }
 
   /**
-   * Denoises what a tracer has rendered so far. From 32 samples on its variance is read first, again each time that the
-   * samples have doubled.
+   * Denoises what a tracer has rendered so far. From 32 samples on its variance is used.
    *
    * @param tracer A `PathTracer` with the AOVs `albedo` and `normal`, on this device.
    * @throws {DenoiseError} `denoise/input` if an AOV is not requested; otherwise as {@link denoise}. What the tracer
@@ -121,7 +115,8 @@ export class FilmDenoiser {
           'denoise/input',
           `The tracer records no "${name}": create it with aovs: ['albedo', 'normal'], or await setAovs(['albedo', 'normal']).`,
         );
-    const variance = options.blend === false ? undefined : await this.#varianceOf(tracer);
+    const known = options.blend !== false && tracer.samples >= VARIANCE_SAMPLES;
+    const variance = known ? await tracer.varianceBuffer() : undefined;
     options.signal?.throwIfAborted();
     const { width, height, beautyBuffer: color } = tracer;
     return this.denoise(
@@ -162,52 +157,33 @@ export class FilmDenoiser {
       throw new DenoiseError('denoise/destroyed', 'This FilmDenoiser was destroyed: create another one.');
   }
 
-  /** The variance of the tracer's film, or of what it was before: it falls with the number of samples. */
-  async #varianceOf(tracer: DenoisableTracer): Promise<Float32Array<ArrayBuffer> | undefined> {
-    const { samples } = tracer;
-    if (samples < VARIANCE_SAMPLES) return undefined;
-    const kept = this.#variance;
-    const pixels = 4 * tracer.width * tracer.height;
-    const fresh =
-      kept?.tracer === tracer && samples >= kept.samples && samples < 2 * kept.samples && kept.data.length === pixels;
-    if (!fresh) this.#variance = { tracer, samples, data: await tracer.read('variance') };
-    const { data, samples: then } = this.#variance!;
-    return samples === then ? data : data.map((value) => (value * then) / samples);
-  }
-
   #release(): void {
     if (this.#buffers) for (const buffer of gpuBuffers(this.#buffers)) buffer.destroy();
     this.#buffers = undefined;
   }
 
   /** @throws {DenoiseError} `denoise/memory`. */
-  async #prepare(width: number, height: number, known: boolean): Promise<Buffers> {
+  async #prepare(width: number, height: number): Promise<Buffers> {
+    const kept = this.#buffers;
+    // The last result may be on a screen: it stays until the next one.
+    if (kept?.width === width && kept.height === height) return kept;
     const image = (name: string, usage: number, size = 16 * width * height) => ({
       label: `denoise ${name}`,
       size,
       usage: STORAGE | usage,
     });
-    const variance = image('variance', COPY_DST, known ? 16 * width * height : 16);
-    const kept = this.#buffers;
-    if (kept?.width === width && kept.height === height) {
-      // The last result may be on a screen: it stays until the next one.
-      if (kept.variance.size === variance.size) return kept;
-      const [made] = await this.#make(width, height, [variance]);
-      kept.variance.destroy();
-      return (this.#buffers = { ...kept, variance: made as GPUBuffer });
-    }
     this.#release();
     const tiles = 16 * Math.ceil(width / BLEND_TILE) * Math.ceil(height / BLEND_TILE);
-    const [size, film, held, denoised, result, errorTiles, known_] = (await this.#make(width, height, [
+    const [size, film, held, denoised, result, errorTiles, noVariance] = (await this.#make(width, height, [
       { label: 'denoise size', size: 16, usage: UNIFORM | COPY_DST },
       image('film', COPY_DST),
       image('held', 0),
       image('denoised', COPY_SRC),
       image('result', COPY_SRC | COPY_DST),
       image('tiles', 0, tiles),
-      variance,
+      image('no variance', 0, 16),
     ])) as [GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer];
-    const buffers = { width, height, size, film, held, denoised, result, tiles: errorTiles, variance: known_ };
+    const buffers = { width, height, size, film, held, denoised, result, tiles: errorTiles, noVariance };
     return (this.#buffers = buffers);
   }
 
@@ -239,20 +215,14 @@ export class FilmDenoiser {
         'denoise/input',
         `"color" needs the usages STORAGE and COPY_SRC and ${bytes} bytes for ${width} × ${height} pixels; it has ${color.size}.`,
       );
-    if (variance && variance.length !== 4 * width * height)
+    if (variance && (variance.size < bytes || !(variance.usage & STORAGE)))
       throw new DenoiseError(
         'denoise/input',
-        `"variance" needs ${4 * width * height} numbers for ${width} × ${height} pixels; it has ${variance.length}.`,
+        `"variance" needs the usage STORAGE and ${bytes} bytes for ${width} × ${height} pixels; it has ${variance.size}.`,
       );
-    const buffers = await this.#prepare(width, height, variance !== undefined);
+    const buffers = await this.#prepare(width, height);
     const { queue } = this.#device;
     queue.writeBuffer(buffers.size, 0, Uint32Array.of(width, height, variance ? 1 : 0, 0));
-    if (variance)
-      queue.writeBuffer(
-        buffers.variance,
-        0,
-        variance.map((value) => (value >= 0 && value < UNKNOWN ? value : UNKNOWN)),
-      );
     const groups = [Math.ceil(width / 8), Math.ceil(height / 8)] as const;
     // The film may get samples meanwhile: all that follows sees the same one.
     this.#submit((encoder) => encoder.copyBufferToBuffer(color, 0, buffers.film, 0, bytes));
@@ -263,7 +233,7 @@ export class FilmDenoiser {
     );
     this.#expectAlive();
     if (!blend) return { buffer: buffers.denoised, width, height };
-    const inputs = { 2: buffers.denoised, 4: buffers.variance };
+    const inputs = { 2: buffers.denoised, 4: variance ?? buffers.noVariance };
     this.#dispatch(this.#kernels.errors, buffers, { ...inputs, 3: buffers.tiles }, groups);
     this.#dispatch(this.#kernels.blend, buffers, { ...inputs, 3: buffers.result, 5: buffers.tiles }, groups);
     await queue.onSubmittedWorkDone();

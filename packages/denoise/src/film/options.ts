@@ -44,11 +44,11 @@ export interface FilmImages {
   /** Usage `STORAGE`. Normals, 0 where there is no surface; the fourth float is not read. */
   readonly normal: GPUBuffer;
   /**
-   * Variance of the mean that `color` is, in the first three of four floats a pixel; numbers that are not finite are
-   * unknown. With it the film is shown as it is where it has converged. Default: estimated from the image alone, which
+   * Usage `STORAGE`. Variance of the mean that `color` is, in the first three of four floats a pixel; numbers that are
+   * not finite are unknown. With it the film is shown as it is where it has converged. Default: estimated from the image alone, which
    * takes some of the detail that a network loses for noise.
    */
-  readonly variance?: Float32Array<ArrayBuffer> | undefined;
+  readonly variance?: GPUBuffer | undefined;
 }
 
 /** Options for {@link FilmDenoiser.denoise}. */
@@ -79,5 +79,5 @@ export interface DenoisableTracer {
   readonly beautyBuffer: GPUBuffer;
   readonly aovs: readonly string[];
   aov(name: 'albedo' | 'normal'): { readonly buffer: GPUBuffer };
-  read(layer: 'variance'): Promise<Float32Array<ArrayBuffer>>;
+  varianceBuffer(): Promise<GPUBuffer>;
 }

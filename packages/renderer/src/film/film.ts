@@ -7,7 +7,8 @@ import { AOV_BUFFERS, type AovBuffer } from './aovs';
  * The buffers of one image. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not
  * yet complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance;
  * `beauty`; the pixel's number in `film_pixels`; in a film that begins in the middle of a chunk, that chunk's samples in
- * `film_head`, which `film_total` contains too; the AOVs that are requested.
+ * `film_head`, which `film_total` contains too; the AOVs that are requested. `film_noise` and `film_variance` are made
+ * when they are first bound.
  */
 export class Film {
   /** Pixels that there is memory for. */
@@ -103,6 +104,7 @@ export class Film {
     // A tile each 64 pixels, and those at the edges.
     if (name === 'film_noise' && !this.#buffers.has(name))
       this.#allocate(name, 16 * Math.ceil(this.fullWidth / TILE) * Math.ceil(this.fullHeight / TILE));
+    if (name === 'film_variance' && !this.#buffers.has(name)) this.#make(name, 16);
     return this.#buffers.get(name);
   }
 

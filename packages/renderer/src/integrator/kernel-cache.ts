@@ -7,7 +7,7 @@ export interface KernelSet {
 }
 
 /** Compiled when they are first asked for. */
-const ON_DEMAND: ReadonlySet<KernelName> = new Set(['relight', 'noise', 'first']);
+const ON_DEMAND: ReadonlySet<KernelName> = new Set(['relight', 'noise', 'variance', 'first']);
 
 /** Called with how far the kernels are, 0..1, and the one that was compiled last. */
 type ProgressListener = (done: number, name?: KernelName, kernel?: Kernel) => void;
@@ -87,9 +87,13 @@ export class KernelCache {
     return { set, count: names.length, ready, listeners };
   }
 
-  /** One kernel. */
-  kernel(name: KernelName, features: KernelFeatures): Promise<Kernel> {
-    const source = kernelSource(name, features);
+  /** One kernel. What is not needed for the first image is loaded first. */
+  async kernel(name: KernelName, features: KernelFeatures): Promise<Kernel> {
+    const root =
+      name === 'noise' || name === 'relight' || name === 'variance'
+        ? (await import('../film/film-data')).FILM_KERNELS[name]
+        : undefined;
+    const source = kernelSource(name, features, root);
     return remember(this.#kernels, source.key, () => source.compile(this.#device));
   }
 }

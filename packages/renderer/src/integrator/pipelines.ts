@@ -1,6 +1,6 @@
 import { bvhAnyHit, bvhClosestHit, bvhOffset } from '@glanz/bvh/wgsl';
 import { openpbr, openpbrMedium, openpbrPhase, openpbrSubsurface } from '@glanz/openpbr';
-import { beginShaderModule, compose, type WgslModule } from '@glanz/wgsl';
+import { beginShaderModule, compose, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { inErrorScopes, lossOr } from '../device/error-scopes';
 import type { TexturedParameterInfo } from '../materials/materials';
@@ -11,8 +11,6 @@ import begin from './begin.wesl';
 import connect from './connect.wesl';
 import { aovBuffers } from '../film/aovs';
 import { pathLayout } from '../path/path-layout';
-import noise from '../film/noise.wesl';
-import relight from '../film/relight.wesl';
 import energyHost from '../materials/energy.wesl';
 import firstLight from './first_light.wesl';
 import generate from './generate.wesl';
@@ -78,6 +76,7 @@ export const KERNELS = [
   'aov_ids',
   'relight',
   'noise',
+  'variance',
   'first',
 ] as const;
 export type KernelName = (typeof KERNELS)[number];
@@ -89,6 +88,9 @@ export interface Kernel {
   readonly groups: KernelBindings;
   readonly layouts: readonly GPUBindGroupLayout[];
 }
+
+/** In place of the entry points that are loaded later, see `FILM_KERNELS`. */
+const FILM_KERNEL = wgslModule('renderer/film-kernel', '');
 
 interface KernelText {
   /** The module with the entry point. */
@@ -248,9 +250,16 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         textures: false,
       };
     case 'relight':
-      return { root: relight, host: [planes], resources: ['batch', ...filmBuffers], textures: false };
+      return { root: FILM_KERNEL, host: [planes], resources: ['batch', ...filmBuffers], textures: false };
     case 'noise':
-      return { root: noise, host: [planes], resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
+      return { root: FILM_KERNEL, host: [planes], resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
+    case 'variance':
+      return {
+        root: FILM_KERNEL,
+        host: [planes],
+        resources: ['batch', ...filmBuffers, 'film_variance'],
+        textures: false,
+      };
     case 'first': {
       const firstFlags = { ...flags, OPACITY: false, CATCHER: false };
       // Neither opacity nor catchers: they would bring half of the renderer.
@@ -286,15 +295,19 @@ export interface KernelSource {
   readonly compile: (device: GPUDevice) => Promise<Kernel>;
 }
 
-/** The text of one kernel for a scene's features. */
-export function kernelSource(name: KernelName, features: KernelFeatures): KernelSource {
+/**
+ * The text of one kernel for a scene's features.
+ *
+ * @param root The module with its entry point, for those of `FILM_KERNELS`.
+ */
+export function kernelSource(name: KernelName, features: KernelFeatures, root?: WgslModule): KernelSource {
   const text = kernelText(name, features);
   const own = text.flags ?? features.flags;
   const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true, PLANES: features.planes > 1 };
   const groups = kernelBindings(text.resources, text.textures ? sceneBindings(features) : []);
   const bindings = bindingModule(name, groups, flags);
   const host = (text.host ?? []).filter((module) => !!module);
-  const shader = compose([bindings, ...host, text.root], { flags });
+  const shader = compose([bindings, ...host, root ?? text.root], { flags });
   return {
     key: `${name}\n${shader.code}`,
     async compile(device) {

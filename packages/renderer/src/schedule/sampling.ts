@@ -132,6 +132,11 @@ export class Sampling {
     if (goal.noise === undefined) this.#until = 0;
     const until = Math.min(this.#until, goal.samples);
     if (this.#scheduler.samples < until) yield* this.#run(until, goal, pace);
+    // Where all pixels have equally many samples, and shall get as many, there are no tiles to choose.
+    if (goal.noise === undefined && !this.#under) {
+      if (goal.current() && this.#scheduler.samples < goal.samples) yield* this.#run(goal.samples, goal, pace);
+      return;
+    }
     while (goal.current()) {
       this.#settle();
       let tiles: readonly number[] = [...this.#counts.keys()];

@@ -13,6 +13,7 @@ import type { FilmLayer, HistoryFrame, LightGroup, RenderOptions, RenderProgress
 import type { Batch } from '../schedule/scheduler';
 import { Sampling, type SamplingState } from '../schedule/sampling';
 import { AovRecorder } from './aov-recorder';
+import { FilmReader } from './film-reader';
 import type { EditEffect, Move } from '../film/edit-effect';
 import type { Film } from '../film/film';
 import { FILM_SUMS, type FilmState } from '../film/film-state';
@@ -49,6 +50,7 @@ const COUNTERS = 32;
 export class FilmSession {
   readonly #host: FilmHost;
   readonly aovs: AovRecorder;
+  readonly reader: FilmReader;
   readonly groups: GroupSettings;
   readonly #history = new FrameHistory();
   #film: Film;
@@ -84,6 +86,17 @@ export class FilmSession {
         await host.ready();
         host.check();
       },
+      writeFrame: () => this.#writeFrame(),
+      refused: () => this.#refused(),
+    });
+    this.reader = new FilmReader({
+      ...host,
+      film: () => this.#film,
+      first: () => this.#first,
+      next: () => this.#sampling?.state.sample ?? 0,
+      firstWeights: () => this.#firstWeights,
+      headCopied: () => this.#headCopied,
+      cleared: () => this.#cleared,
       writeFrame: () => this.#writeFrame(),
       refused: () => this.#refused(),
     });
@@ -214,33 +227,21 @@ export class FilmSession {
   async read(layer: FilmLayer): Promise<Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>> {
     const { device, integrator } = this.#host;
     await this.#cleared;
-    if (layer === 'beauty') {
-      const [pixels, counters] = await Promise.all([
-        readFloats(device, this.#film.beauty, this.#film.pixels * 16),
-        readBuffer(device, integrator.queues, COUNTERS),
-      ]);
-      this.#count(counters);
-      return pixels;
-    }
-    if (layer === 'variance') {
-      // With catchers: the image in which they are what they are, without the one that lacks the objects.
-      const weights =
-        integrator.pathsPerSample > 1 ? [...this.#firstWeights, ...this.#firstWeights] : this.#firstWeights;
-      const [total, moment, head] = await Promise.all([
-        ...this.#copy('film_total', 'film_moment'),
-        this.#head(this.#sampling?.state.sample ?? 0),
-      ]);
-      const { varianceLayer } = await import('../film/film-data');
-      return varianceLayer(total as Float32Array, moment as Float32Array, weights, headSamples(this.#first), head);
-    }
-    return this.aovs.read(layer);
+    if (layer === 'variance') return this.reader.variance();
+    if (layer !== 'beauty') return this.aovs.read(layer);
+    const [pixels, counters] = await Promise.all([
+      readFloats(device, this.#film.beauty, this.#film.pixels * 16),
+      readBuffer(device, integrator.queues, COUNTERS),
+    ]);
+    this.#count(counters);
+    return pixels;
   }
 
   /** See `PathTracer.readLightGroup`. */
   async readGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
     const plane = this.groups.plane(name);
     const weight = this.groups.weights[plane] as GroupWeights[number];
-    const [total, block, moment] = await Promise.all(this.#copy('film_total', 'film_block', 'film_moment'));
+    const [total, block, moment] = await Promise.all(this.reader.copy('film_total', 'film_block', 'film_moment'));
     const { groupLayer } = await import('../film/film-data');
     return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, plane, weight);
   }
@@ -271,8 +272,8 @@ export class FilmSession {
     const head = { width, height, planes, weights, sampling, fingerprint: fingerprint() };
     const [counters, part, ...sums] = await Promise.all([
       readBuffer(device, integrator.queues, COUNTERS),
-      this.#head(sampling.sample),
-      ...this.#copy(...FILM_SUMS),
+      this.reader.head(sampling.sample),
+      ...this.reader.copy(...FILM_SUMS),
     ]);
     this.#count(counters);
     const end = Math.max(
@@ -352,7 +353,7 @@ export class FilmSession {
       ready,
       check,
       setPixels: (list: Uint32Array<ArrayBuffer> | undefined) => film.setPixels(list),
-      measure: () => this.#measureNoise(),
+      measure: () => this.reader.measureNoise(),
     };
     return new Sampling(host, paths, state, this.#first);
   }
@@ -366,32 +367,6 @@ export class FilmSession {
     this.#host.device.queue.submit([encoder.finish()]);
   }
 
-  /** The sums of a first chunk that is not whole, once the film has gone beyond it. @param sample The next one. */
-  async #head(sample: number): Promise<Float32Array<ArrayBuffer> | undefined> {
-    if (headSamples(this.#first) === 0 || sample < headEnd(this.#first)) return undefined;
-    return this.#floats(this.#headCopied ? this.#film.head : (this.#film.buffer('film_total') as GPUBuffer));
-  }
-
-  async #measureNoise(): Promise<Float32Array> {
-    const { cache, device, integrator, check } = this.#host;
-    const kernel = await cache.kernel('noise', integrator.kernels.features);
-    check();
-    const film = this.#film;
-    const { columns, rows } = new TileGrid(film.width, film.height);
-    try {
-      await withErrorScopes(device, "measuring the film's noise", () => {
-        this.#writeFrame();
-        integrator.submitTiles(kernel, columns, rows);
-      });
-    } catch (error) {
-      film.release('film_noise');
-      integrator.rebind();
-      this.#frameDirty = true;
-      throw error;
-    }
-    return readFloats(device, film.buffer('film_noise') as GPUBuffer, 16 * columns * rows);
-  }
-
   #writeFrame(): void {
     if (!this.#frameDirty) return;
     const { integrator, packFrame, camera } = this.#host;
@@ -399,14 +374,6 @@ export class FilmSession {
     if (integrator.kernels.features.flags.AOV_MOTION)
       integrator.writeHistory(this.#history.pack(camera(), this.#film.width, this.#film.height));
     this.#frameDirty = false;
-  }
-
-  #copy(...names: readonly string[]): Promise<Float32Array<ArrayBuffer>>[] {
-    return names.map((name) => this.#floats(this.#film.buffer(name) as GPUBuffer));
-  }
-
-  #floats(buffer: GPUBuffer): Promise<Float32Array<ArrayBuffer>> {
-    return readFloats(this.#host.device, buffer, this.#film.bytes(buffer));
   }
 
   #count(counters: ArrayBuffer): void {

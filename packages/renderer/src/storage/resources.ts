@@ -63,6 +63,7 @@ const FILM = {
   aov_position: { type: 'array<vec4f>', space: 'read_write' },
   aov_ids: { type: 'array<vec4u>', space: 'read_write' },
   aov_motion: { type: 'array<vec2f>', space: 'read_write' },
+  film_variance: { type: 'array<vec4f>', space: 'read_write' },
 } as const satisfies Record<string, Resource>;
 
 /**

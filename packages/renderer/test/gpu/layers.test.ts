@@ -1,6 +1,7 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer } from '../../src/index';
+import { readFloats } from '../../src/storage/read-buffer';
 import { addQuad, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
@@ -66,6 +67,41 @@ describe('variance', () => {
     const ratio = estimated / actual;
     expect(ratio).toBeGreaterThan(low);
     expect(ratio).toBeLessThan(high);
+  });
+
+  it.each([
+    ['from the first sample', 0],
+    // The first chunk is not whole.
+    ['from sample 5', 5],
+  ] as const)('on the GPU: the layer that is read, %s', async (_, firstSample) => {
+    const scene = noisy();
+    scene.lights.push({ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 2, position: [0.3, 1, 0.2] });
+    const tracer = await PathTracer.create(device, scene, {
+      width: 12,
+      height: 8,
+      camera,
+      maxDepth: 3,
+      lightGroups: 'each',
+    });
+    tracer.reset({ firstSample });
+    const onGpu = async () => {
+      const buffer = await tracer.varianceBuffer();
+      return readFloats(device, buffer, 4 * 4 * 12 * 8);
+    };
+    for await (const _ of tracer.render({ samples: 20, maxSubmitMs: 1000 }));
+    expect((await onGpu()).subarray(0, 4)).toEqual(Float32Array.of(Infinity, Infinity, Infinity, 20));
+    for await (const _ of tracer.render({ samples: 72, maxSubmitMs: 1000 }));
+    const [layer, gpu, beauty] = [await tracer.read('variance'), await onGpu(), await tracer.read('beauty')];
+    expect(layer.some((value, i) => i % 4 < 3 && value > 0)).toBe(true);
+    gpu.forEach((value, i) => {
+      if (i % 4 === 3) expect(value).toBe(72);
+      // A difference of sums of squares, over the number of chunks less 1: each sum has some roundings.
+      else {
+        const rounding = (8 * 2 ** -24 * beauty[i]! ** 2) / 3;
+        expect(Math.abs(value - layer[i]!)).toBeLessThanOrEqual(rounding + 8 * 2 ** -24 * layer[i]!);
+      }
+    });
+    tracer.destroy();
   });
 
   it('is infinite before there are two chunks, and zero where nothing varies', async () => {

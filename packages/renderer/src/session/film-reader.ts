@@ -1,0 +1,116 @@
+import { withErrorScopes } from '../device/error-scopes';
+import type { Film } from '../film/film';
+import type { GroupWeights } from '../film/layers';
+import { forBands } from '../integrator/bands';
+import type { Integrator } from '../integrator/integrator';
+import type { KernelCache } from '../integrator/kernel-cache';
+import { TileGrid } from '../schedule/adaptive';
+import { headEnd, headSamples } from '../schedule/sample-range';
+import type { GpuMemory } from '../storage/buffers';
+import { readFloats } from '../storage/read-buffer';
+
+/** What a {@link FilmReader} asks of the session that it belongs to. */
+export interface FilmReaderHost {
+  readonly device: GPUDevice;
+  readonly memory: GpuMemory;
+  readonly cache: KernelCache;
+  readonly integrator: Integrator;
+  readonly film: () => Film;
+  /** Number of the film's first sample. */
+  readonly first: () => number;
+  /** Number of the next sample of the pixels under way. */
+  readonly next: () => number;
+  /** Weights of the light groups when the film was begun. */
+  readonly firstWeights: () => GroupWeights;
+  /** Whether `film_head` holds the sums of a first chunk that is not whole. */
+  readonly headCopied: () => boolean;
+  /** Settles when the film has been cleared. */
+  readonly cleared: () => Promise<void>;
+  /** Throws if the tracer was destroyed or its device lost. */
+  readonly check: () => void;
+  readonly writeFrame: () => void;
+  /** The GPU has refused something. */
+  readonly refused: () => void;
+}
+
+type Floats = Float32Array<ArrayBuffer>;
+
+/** Copies the sums of a film, and what follows from them. The film is only read. */
+export class FilmReader {
+  readonly #host: FilmReaderHost;
+
+  constructor(host: FilmReaderHost) {
+    this.#host = host;
+  }
+
+  /** Buffers of the film, to the CPU. The copies are submitted before this returns. */
+  copy(...names: readonly string[]): Promise<Floats>[] {
+    return names.map((name) => this.#floats(this.#buffer(name)));
+  }
+
+  /** The sums of a first chunk that is not whole, once the film has gone beyond it. @param next The next sample. */
+  async head(next = this.#host.next()): Promise<Floats | undefined> {
+    const first = this.#host.first();
+    if (headSamples(first) === 0 || next < headEnd(first)) return undefined;
+    return this.#floats(this.#host.headCopied() ? this.#host.film().head : this.#buffer('film_total'));
+  }
+
+  /** The layer `variance` of `PathTracer.read`. */
+  async variance(): Promise<Floats> {
+    const { integrator, first, firstWeights } = this.#host;
+    // With catchers: the image in which they are what they are, without the one that lacks the objects.
+    const weights = integrator.pathsPerSample > 1 ? [...firstWeights(), ...firstWeights()] : firstWeights();
+    const missing = headSamples(first());
+    const [total, moment, head] = await Promise.all([...this.copy('film_total', 'film_moment'), this.head()]);
+    const { varianceLayer } = await import('../film/film-data');
+    return varianceLayer(total as Floats, moment as Floats, weights, missing, head);
+  }
+
+  /** See `PathTracer.varianceBuffer`. */
+  async varianceBuffer(): Promise<GPUBuffer> {
+    const { cache, cleared, integrator, memory, check, film: current, first } = this.#host;
+    const kernel = await cache.kernel('variance', integrator.kernels.features);
+    await cleared();
+    // The kernel knows nothing of the samples that a first chunk lacks.
+    const layer = headSamples(first()) > 0 ? await this.variance() : undefined;
+    check();
+    const film = current();
+    await this.#guarded("the film's variance", 'film_variance', () => {
+      if (layer?.length === 4 * film.pixels) memory.write(this.#buffer('film_variance'), layer);
+      else forBands(film.pixels, (batch) => integrator.submitPixels('variance', kernel, batch));
+    });
+    return this.#buffer('film_variance');
+  }
+
+  /** Sums over tiles, see `noiseMap`. */
+  async measureNoise(): Promise<Float32Array> {
+    const { cache, device, integrator, check, film, writeFrame } = this.#host;
+    const kernel = await cache.kernel('noise', integrator.kernels.features);
+    check();
+    const { columns, rows } = new TileGrid(film().width, film().height);
+    await this.#guarded("measuring the film's noise", 'film_noise', () => {
+      writeFrame();
+      integrator.submitTiles(kernel, columns, rows);
+    });
+    return readFloats(device, this.#buffer('film_noise'), 16 * columns * rows);
+  }
+
+  /** Runs a kernel whose result is made when it is first bound; frees that where the GPU refuses it. */
+  async #guarded(what: string, result: string, submit: () => void): Promise<void> {
+    try {
+      await withErrorScopes(this.#host.device, what, submit);
+    } catch (error) {
+      this.#host.film().release(result);
+      this.#host.refused();
+      throw error;
+    }
+  }
+
+  #buffer(name: string): GPUBuffer {
+    return this.#host.film().buffer(name) as GPUBuffer;
+  }
+
+  #floats(buffer: GPUBuffer): Promise<Floats> {
+    return readFloats(this.#host.device, buffer, this.#host.film().bytes(buffer));
+  }
+}
