@@ -38,6 +38,14 @@ interface Series {
   readonly shots: Shot[];
 }
 
+/** A series with the errors of its images, and when they are clean. */
+interface Row {
+  readonly scene: string;
+  readonly way: Way;
+  readonly points: readonly (Point & { readonly samples: number })[];
+  readonly clean: number | undefined;
+}
+
 const elapsed = async (device: GPUDevice, work: () => Promise<unknown>) => {
   const started = performance.now();
   await work();
@@ -178,15 +186,7 @@ export const benchmark: Benchmark = {
 };
 
 /** How much sooner images are clean. Where a film never was, its last image counts as if it had been. */
-function figuresOf(
-  quality: (typeof QUALITIES)[number],
-  rows: readonly {
-    readonly scene: string;
-    readonly way: Way;
-    readonly points: readonly Point[];
-    readonly clean: number | undefined;
-  }[],
-): Figure[] {
+function figuresOf(quality: (typeof QUALITIES)[number], rows: readonly Row[]): Figure[] {
   const ratios = rows.flatMap(({ scene, way, clean }) => {
     if (way !== quality) return [];
     const film = rows.find((row) => row.scene === scene && row.way === 'film')!;
@@ -210,6 +210,29 @@ function figuresOf(
       runs: ratios.length,
       median: Math.min(...ratios),
       target: target(1, 'never later'),
+    },
+    ...samplesSaved(quality, rows),
+  ];
+}
+
+/** Samples that the film needs to be as good as its first sample, denoised: what a slower GPU gains. */
+function samplesSaved(quality: (typeof QUALITIES)[number], rows: readonly Row[]): Figure[] {
+  const counts = rows.flatMap(({ scene, way, points }) => {
+    const first = points[0];
+    if (way !== quality || !first) return [];
+    const film = rows.find((row) => row.scene === scene && row.way === 'film')!;
+    const inSamples = film.points.map(({ samples, error }) => ({ samples, error, milliseconds: samples }));
+    return [crossing(inSamples, first.error) ?? film.points.at(-1)!.samples];
+  });
+  if (counts.length === 0) return [];
+  return [
+    {
+      name: `${quality}: samples that are as good as one denoised, geometric mean`,
+      unit: 'samples',
+      runs: counts.length,
+      min: Math.min(...counts),
+      median: Math.exp(counts.reduce((sum, count) => sum + Math.log(count), 0) / counts.length),
+      max: Math.max(...counts),
     },
   ];
 }
