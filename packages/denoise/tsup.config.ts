@@ -4,4 +4,5 @@ export default glanzPackage({
   index: 'src/index.ts',
   cpu: 'src/cpu/index.ts',
   film: 'src/film/index.ts',
+  temporal: 'src/temporal/index.ts',
 });

@@ -1,0 +1,10 @@
+export { TemporalFilter } from './temporal-filter';
+export { TEMPORAL_AOVS } from './options';
+export type {
+  FilterableTracer,
+  FilteredImage,
+  FrameStep,
+  TemporalAov,
+  TemporalFilterOptions,
+  TemporalFrame,
+} from './options';

@@ -1,0 +1,21 @@
+import { struct } from '@glanz/wgsl/struct';
+
+/** What the kernels of the temporal filter know of a frame. */
+export const temporalFrameStruct = struct('TemporalFrame', {
+  size: 'vec2u',
+  /** Samples that the film's image is the mean of. */
+  samples: 'f32',
+  /** Samples that the history counts for at most. */
+  max_history: 'f32',
+  /** Standard deviations around the mean of a pixel's neighbours that the history is kept within. */
+  clamp_sigmas: 'f32',
+  /** The share of the filtered image, 0 to 1. */
+  share: 'f32',
+  /** 1 where instances have moved since the frame before. */
+  moved: 'u32',
+  /** Pixels between the taps of the spatial filter. */
+  step: 'u32',
+});
+
+/** Module of {@link temporalFrameStruct}, for shaders. */
+export const TemporalFrame = temporalFrameStruct.module;

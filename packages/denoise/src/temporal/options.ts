@@ -1,0 +1,88 @@
+/** Options for {@link TemporalFilter.create}. */
+export interface TemporalFilterOptions {
+  /**
+   * Samples per pixel that the history counts for at most: more is smoother, and slower to follow what the motion does
+   * not tell, such as reflections and light that changes. 1 or more. Default 8.
+   */
+  readonly maxHistory?: number;
+  /**
+   * Standard deviations of a pixel's neighbours that the history may be off their mean: less follows changes sooner, and
+   * keeps less. Above 0; `Infinity` keeps all. Default 3.
+   */
+  readonly clampSigmas?: number;
+  /** Whether edges are smoothed over frames, too. Default true. */
+  readonly antialias?: boolean;
+  /** Passes of the spatial filter, 0 to 5; the last one reaches over 2^(passes + 1) pixels. Default 4. */
+  readonly passes?: number;
+  /**
+   * Samples of the film from which on the image is the film, bit for bit. Between 4 and that the film comes in. 5 or more.
+   * Default 64.
+   */
+  readonly settledSamples?: number;
+  /** Ends the creation with the signal's reason. */
+  readonly signal?: AbortSignal | undefined;
+}
+
+/**
+ * How a frame follows from the one before.
+ *
+ * - `continues`: the same film, which may have more samples.
+ * - `moves`: a new film of the same scene; the camera or instances have moved, as `motion` tells.
+ * - `cuts`: a new film that has nothing to do with the one before.
+ */
+export type FrameStep = 'continues' | 'moves' | 'cuts';
+
+/**
+ * A noisy film and what its pixels show, in GPU buffers with the usage `STORAGE`, as a `PathTracer` of `@glanz/renderer`
+ * has them: without gaps, the top row first.
+ */
+export interface TemporalFrame {
+  /** Pixels, 1 to 16384. */
+  readonly width: number;
+  /** Pixels, 1 to 16384. */
+  readonly height: number;
+  /** Linear radiance and alpha, four floats a pixel: the mean of the samples. It is only read. */
+  readonly color: GPUBuffer;
+  /** Samples per pixel that `color` is the mean of, 1 or more. */
+  readonly samples: number;
+  /** Reflectances 0 to 1 and coverage, four floats a pixel. */
+  readonly albedo: GPUBuffer;
+  /** Normals, and metres to the first surface, 0 where none is; four floats a pixel. */
+  readonly normal: GPUBuffer;
+  /** Positions of the first surface, and metres along the path to what is seen; four floats a pixel. */
+  readonly position: GPUBuffer;
+  /** Number of the instance first of four whole numbers a pixel. */
+  readonly ids: GPUBuffer;
+  /** Pixels from where the surface is to where it was in the frame before, x to the right, y down; two floats a pixel. */
+  readonly motion: GPUBuffer;
+  readonly step: FrameStep;
+  /** With `moves`: whether instances have moved, not the camera alone. Default false. */
+  readonly instancesMoved?: boolean | undefined;
+}
+
+/** What {@link TemporalFilter.filter} has made. */
+export interface FilteredImage {
+  /**
+   * Linear radiance and the film's alpha, four floats a pixel; usages `STORAGE` and `COPY_SRC`. It belongs to the filter,
+   * which writes one of the next two images into it, and frees it where those have another size.
+   */
+  readonly buffer: GPUBuffer;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The part of a `PathTracer` of `@glanz/renderer` that {@link TemporalFilter.filterTracer} needs. */
+export interface FilterableTracer {
+  readonly width: number;
+  readonly height: number;
+  readonly samples: number;
+  readonly beautyBuffer: GPUBuffer;
+  readonly aovs: readonly string[];
+  aov(name: TemporalAov): { readonly buffer: GPUBuffer };
+}
+
+/** First-hit AOVs that the filter reads. */
+export const TEMPORAL_AOVS = ['albedo', 'normal', 'depth', 'position', 'virtualDepth', 'objectId', 'motion'] as const;
+
+/** See {@link TEMPORAL_AOVS}. */
+export type TemporalAov = (typeof TEMPORAL_AOVS)[number];

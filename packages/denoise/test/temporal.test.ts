@@ -1,0 +1,333 @@
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { TemporalFilter, type FrameStep, type TemporalFilterOptions } from '../src/temporal/index';
+import { numbersFrom } from './random-network';
+
+afterEach(() => expectNoGpuErrors());
+
+const [WIDTH, HEIGHT] = [40, 24];
+const PIXELS = WIDTH * HEIGHT;
+
+let device: GPUDevice;
+beforeAll(async () => {
+  device = await testDevice();
+});
+
+/** What a pixel shows. */
+interface Seen {
+  readonly radiance: number;
+  readonly albedo: number;
+  readonly instance: number;
+  readonly position: readonly [x: number, y: number, z: number];
+  readonly normal: readonly [x: number, y: number, z: number];
+  readonly virtualDepth: number;
+  /** Pixels to where the surface was. */
+  readonly motion: readonly [x: number, y: number];
+}
+
+/** A wall 2 m away that faces the camera. */
+const wall = (x: number, y: number): Seen => ({
+  radiance: 0.5,
+  albedo: 0.5,
+  instance: 3,
+  position: [0.01 * x, -0.01 * y, -2],
+  normal: [0, 0, 1],
+  virtualDepth: 2,
+  motion: [0, 0],
+});
+
+interface Shot {
+  readonly scene: (x: number, y: number) => Seen;
+  readonly step: FrameStep;
+  readonly samples?: number;
+  /** Standard deviation of the noise over the radiance. */
+  readonly noise?: number;
+  readonly instancesMoved?: boolean;
+  /** In place of the noisy radiance. */
+  readonly color?: (x: number, y: number) => number;
+}
+
+const center = (i: number) => [i % WIDTH, Math.floor(i / WIDTH)] as const;
+
+/** Runs frames through a filter: the last image's red channel, and what the frames' films were. */
+async function run(shots: readonly Shot[], options: TemporalFilterOptions = {}) {
+  const filter = await TemporalFilter.create(device, options);
+  const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST;
+  const random = numbersFrom(7);
+  const films: Float32Array[] = [];
+  const made: GPUBuffer[] = [];
+  const buffer = (data: Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>) => {
+    const one = device.createBuffer({ size: data.byteLength, usage });
+    device.queue.writeBuffer(one, 0, data);
+    made.push(one);
+    return one;
+  };
+  try {
+    await filter.prepare(WIDTH, HEIGHT);
+    let image = { buffer: undefined as unknown as GPUBuffer, width: WIDTH, height: HEIGHT };
+    for (const { scene, step, samples = 1, noise = 0, instancesMoved = false, color } of shots) {
+      const seen = Array.from({ length: PIXELS }, (_, i) => scene(...center(i)));
+      const film = Float32Array.from({ length: 4 * PIXELS }, (_, i) => {
+        if (i % 4 === 3) return 0.25;
+        const pixel = Math.floor(i / 4);
+        return color?.(...center(pixel)) ?? seen[pixel]!.radiance * (1 + noise * Math.sqrt(12) * (random() - 0.5));
+      });
+      films.push(film);
+      const vectors = (value: (seen: Seen) => readonly number[]) => Float32Array.from(seen.flatMap(value));
+      image = filter.filter({
+        width: WIDTH,
+        height: HEIGHT,
+        samples,
+        step,
+        instancesMoved,
+        color: buffer(film),
+        albedo: buffer(vectors(({ albedo }) => [albedo, albedo, albedo, 1])),
+        normal: buffer(vectors(({ normal, position }) => [...normal, -position[2]])),
+        position: buffer(vectors(({ position, virtualDepth }) => [...position, virtualDepth])),
+        ids: buffer(Uint32Array.from(seen.flatMap(({ instance }) => [instance, 0, 0, 0]))),
+        motion: buffer(vectors(({ motion }) => motion)),
+      });
+    }
+    return { image: await filter.read(image), films };
+  } finally {
+    filter.destroy();
+    for (const one of made) one.destroy();
+  }
+}
+
+const red = (image: Float32Array, x: number, y: number) => image[4 * (y * WIDTH + x)]!;
+
+/** Root of the mean squared difference to a value, over pixels away from the borders. */
+function spread(image: Float32Array, value: number): number {
+  let sum = 0;
+  let count = 0;
+  for (let y = 4; y < HEIGHT - 4; y++)
+    for (let x = 4; x < WIDTH - 4; x++) {
+      sum += (red(image, x, y) - value) ** 2;
+      count++;
+    }
+  return Math.sqrt(sum / count);
+}
+
+/** Nothing but the mean over time. */
+const MEAN_ALONE = {
+  maxHistory: 32,
+  antialias: false,
+  passes: 0,
+  clampSigmas: Infinity,
+  settledSamples: Infinity,
+} as const;
+
+describe('TemporalFilter', () => {
+  it('averages frames by their samples where nothing moves', async () => {
+    const counts = [1, 3, 2, 4];
+    const shots = counts.map((samples) => ({ scene: wall, step: 'moves' as const, samples, noise: 0.4 }));
+    const { image, films } = await run(shots, MEAN_ALONE);
+    for (const i of [0, 5 * WIDTH + 7, PIXELS - 1]) {
+      const expected = films.reduce((sum, film, k) => sum + counts[k]! * film[4 * i]!, 0) / 10;
+      expect(image[4 * i]).toBeCloseTo(expected, 5);
+      expect(image[4 * i + 3]).toBe(0.25);
+    }
+  });
+
+  it('counts the samples of a film that goes on once', async () => {
+    const still = { scene: wall, noise: 0.4 };
+    const { image, films } = await run(
+      [
+        { ...still, step: 'moves', samples: 2 },
+        { ...still, step: 'moves', samples: 1 },
+        { ...still, step: 'continues', samples: 6 },
+      ],
+      MEAN_ALONE,
+    );
+    const at = 4 * (9 * WIDTH + 11);
+    expect(image[at]).toBeCloseTo((2 * films[0]![at]! + 6 * films[2]![at]!) / 8, 5);
+  });
+
+  it('follows surfaces by their motion, between pixels too', async () => {
+    // The wall moves to the right; its radiance is a ramp, which interpolation keeps.
+    const ramp = (by: number) => (x: number, y: number) => ({
+      ...wall(x, y),
+      radiance: 0.2 + 0.01 * (x - by),
+      position: [0.01 * (x - by), -0.01 * y, -2] as const,
+      motion: [-2.5, 0] as const,
+    });
+    const { image } = await run(
+      [0, 2.5, 5, 7.5].map((by) => ({ scene: ramp(by), step: 'moves' as const })),
+      MEAN_ALONE,
+    );
+    // Beyond the left border there was nothing.
+    for (let x = 12; x < WIDTH; x++) expect(red(image, x, 12)).toBeCloseTo(0.2 + 0.01 * (x - 7.5), 5);
+  });
+
+  it.each([
+    ['another instance', { instance: 4 }],
+    ['another plane', { position: [0, 0, -2.1] as const }],
+    ['another side', { normal: [1, 0, 0] as const }],
+  ] as const)('keeps nothing of %s', async (_, change) => {
+    const other = (x: number, y: number) => ({ ...wall(x, y), ...change, radiance: 4 });
+    const { image } = await run(
+      [
+        { scene: other, step: 'cuts' },
+        { scene: wall, step: 'moves' },
+      ],
+      MEAN_ALONE,
+    );
+    expect(spread(image, 0.5)).toBeLessThan(1e-6);
+  });
+
+  it('keeps the history of an instance that has moved off its plane, where it is said that instances have', async () => {
+    const near = (x: number, y: number) => ({ ...wall(x, y), position: [0.01 * x, -0.01 * y, -1.8] as const });
+    const shots = (instancesMoved: boolean): Shot[] => [
+      { scene: wall, step: 'cuts', color: () => 0.7 },
+      { scene: near, step: 'moves', instancesMoved, color: () => 0.5 },
+    ];
+    expect(spread((await run(shots(true), MEAN_ALONE)).image, 0.6)).toBeLessThan(1e-6);
+    expect(spread((await run(shots(false), MEAN_ALONE)).image, 0.5)).toBeLessThan(1e-6);
+  });
+
+  it('begins anew after a cut', async () => {
+    const { image } = await run(
+      [
+        { scene: wall, step: 'moves', color: () => 4 },
+        { scene: wall, step: 'cuts' },
+      ],
+      MEAN_ALONE,
+    );
+    expect(spread(image, 0.5)).toBeLessThan(1e-6);
+  });
+
+  it('has forgotten a light that went out within five frames', async () => {
+    const lit = Array.from({ length: 12 }, () => ({ scene: wall, step: 'moves' as const, noise: 0.3 }));
+    const dark = (x: number, y: number) => ({ ...wall(x, y), radiance: 0.05 });
+    const off = Array.from({ length: 5 }, () => ({ scene: dark, step: 'moves' as const, noise: 0.3 }));
+    const { image } = await run([...lit, ...off]);
+    expect(spread(image, 0.05)).toBeLessThan(0.01);
+    // Without the bounds on the history it would still be there.
+    const kept = await run([...lit, ...off], { clampSigmas: Infinity, maxHistory: 32 });
+    expect(spread(kept.image, 0.05)).toBeGreaterThan(0.1);
+  });
+
+  it('counts what is seen in mirrors for a few samples only', async () => {
+    const mirror = (x: number, y: number) => ({ ...wall(x, y), virtualDepth: 5 });
+    const shots = (scene: Shot['scene']): Shot[] => [
+      { scene, step: 'cuts', samples: 16, color: () => 1 },
+      { scene, step: 'moves', samples: 4, color: () => 0 },
+    ];
+    expect(spread((await run(shots(mirror), MEAN_ALONE)).image, 0.5)).toBeLessThan(1e-6);
+    expect(spread((await run(shots(wall), MEAN_ALONE)).image, 0.8)).toBeLessThan(1e-6);
+  });
+
+  it('takes noise from surfaces and leaves their edges and textures', async () => {
+    // Left a wall, right another one that faces elsewhere and is brighter; stripes of albedo on both.
+    const corner = (x: number, y: number): Seen => {
+      const right = x >= WIDTH / 2;
+      const albedo = y % 4 < 2 ? 0.2 : 0.8;
+      return {
+        ...wall(x, y),
+        albedo,
+        radiance: albedo * (right ? 2 : 1),
+        normal: right ? [-0.8, 0, 0.6] : [0, 0, 1],
+        position: [0.01 * x, -0.01 * y, right ? -2 + (0.008 * (x - WIDTH / 2)) / 0.6 : -2],
+        virtualDepth: 2,
+      };
+    };
+    const expected = Array.from({ length: PIXELS }, (_, i) => corner(...center(i)).radiance);
+    const error = (image: Float32Array) =>
+      Math.sqrt(expected.reduce((sum, value, i) => sum + (image[4 * i]! / value - 1) ** 2, 0) / PIXELS);
+    const { image, films } = await run([{ scene: corner, step: 'cuts', noise: 0.3 }]);
+    expect(error(films[0]!)).toBeGreaterThan(0.25);
+    expect(error(image)).toBeLessThan(0.06);
+    // Over frames it becomes less still.
+    const frames = Array.from({ length: 8 }, () => ({ scene: corner, step: 'moves' as const, noise: 0.3 }));
+    expect(error((await run(frames)).image)).toBeLessThan(0.03);
+  });
+
+  it('changes nothing where there is no noise', async () => {
+    const smooth = (x: number, y: number) => ({ ...wall(x, y), radiance: 0.3 + 0.002 * x });
+    // The first frames do not know yet that what varies is no noise.
+    const frames = Array.from({ length: 32 }, () => ({ scene: smooth, step: 'moves' as const }));
+    const { image } = await run(frames);
+    for (let x = 0; x < WIDTH; x++) expect(red(image, x, 10)).toBeCloseTo(0.3 + 0.002 * x, 3);
+  });
+
+  it('smooths edges over frames', async () => {
+    // The edge between two walls lies within pixels of column 20, whose samples fall to either side by turns.
+    const edge = (frame: number) => (x: number, y: number) => {
+      const right = x > 20 || (x === 20 && frame % 2 === 0);
+      return { ...wall(x, y), radiance: right ? 1 : 0.2, albedo: right ? 1 : 0.2, instance: right ? 1 : 2 };
+    };
+    const frames = Array.from({ length: 24 }, (_, k) => ({ scene: edge(k), step: 'moves' as const }));
+    const { image } = await run(frames);
+    const step = await run(frames, { antialias: false });
+    // The mean of both is 0.6; a compressed mean is a little darker.
+    expect(red(image, 20, 12)).toBeGreaterThan(0.4);
+    expect(red(image, 20, 12)).toBeLessThan(0.65);
+    expect(red(step.image, 20, 12)).toBeCloseTo(0.2, 2);
+    for (const { image: one } of [{ image }, step]) {
+      expect(red(one, 10, 12)).toBeCloseTo(0.2, 3);
+      expect(red(one, 30, 12)).toBeCloseTo(1, 3);
+    }
+  });
+
+  it('leaves what is behind all surfaces as it is', async () => {
+    const sky = (x: number, y: number): Seen => ({
+      ...wall(x, y),
+      radiance: x % 3 === 0 ? 1 : 0.2,
+      albedo: 0,
+      instance: 0xffffffff,
+      position: [0, 0, 0],
+      virtualDepth: 0,
+    });
+    const frames = Array.from({ length: 4 }, () => ({ scene: sky, step: 'moves' as const }));
+    const { image, films } = await run(frames);
+    // Divided by the albedo and multiplied again.
+    image.forEach((value, i) => expect(value).toBeCloseTo(films.at(-1)![i]!, 6));
+  });
+
+  it('comes to the film, bit for bit', async () => {
+    const shot = (step: FrameStep, samples: number) => ({ scene: wall, step, samples, noise: 0.3 });
+    const { image, films } = await run([shot('moves', 1), shot('continues', 64)]);
+    expect(image).toEqual(films[1]);
+    const half = await run([shot('moves', 1), shot('continues', 16)]);
+    expect(half.image).not.toEqual(half.films[1]);
+    expect(spread(half.image, 0.5)).toBeLessThan(spread(half.films[1]!, 0.5));
+  });
+
+  it('keeps broken pixels out of the history and away from their neighbours', async () => {
+    const broken = (value: number) => (x: number, y: number) => (x === 12 && y === 9 ? value : 0.5);
+    for (const value of [NaN, Infinity, -1]) {
+      const { image } = await run([
+        { scene: wall, step: 'moves', color: broken(value) },
+        { scene: wall, step: 'moves', color: () => 0.5 },
+      ]);
+      expect(image.every(Number.isFinite)).toBe(true);
+      expect(Math.abs(red(image, 16, 9) - 0.5)).toBeLessThan(0.02);
+    }
+  });
+
+  it('says what is wrong', async () => {
+    const bad = (options: TemporalFilterOptions) => TemporalFilter.create(device, options);
+    await expect(bad({ passes: 6 })).rejects.toMatchObject({ code: 'denoise/option' });
+    await expect(bad({ maxHistory: 0 })).rejects.toMatchObject({ code: 'denoise/option' });
+    await expect(bad({ clampSigmas: 0 })).rejects.toMatchObject({ code: 'denoise/option' });
+    await expect(bad({ settledSamples: 4 })).rejects.toMatchObject({ code: 'denoise/option' });
+    await expect(bad({ signal: AbortSignal.abort(new Error('enough')) })).rejects.toThrow('enough');
+    const filter = await TemporalFilter.create(device);
+    const data = device.createBuffer({ size: 16 * 16, usage: GPUBufferUsage.STORAGE });
+    const frame = { color: data, albedo: data, normal: data, position: data, ids: data, motion: data };
+    const call = (size: number, samples = 1) =>
+      filter.filter({ ...frame, width: size, height: size, samples, step: 'cuts' });
+    expect(() => call(4)).toThrow(expect.objectContaining({ code: 'denoise/size' }));
+    await filter.prepare(5, 5);
+    expect(filter.memoryBytes).toBeGreaterThan(0);
+    expect(() => call(5)).toThrow(expect.objectContaining({ code: 'denoise/input' }));
+    await filter.prepare(4, 4);
+    expect(() => call(4, 0)).toThrow(expect.objectContaining({ code: 'denoise/input' }));
+    expect(() => filter.filterTracer({ aovs: ['albedo'] } as never, 'cuts')).toThrow('setAovs');
+    filter.destroy();
+    expect(() => call(4)).toThrow(expect.objectContaining({ code: 'denoise/destroyed' }));
+    expect(filter.memoryBytes).toBe(0);
+    data.destroy();
+  });
+});
