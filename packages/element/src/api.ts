@@ -14,8 +14,8 @@ export interface GlanzViewerEventMap {
   /** Something failed: `message` in one line, `code`, and `retry` where trying again can help. */
   error: CustomEvent<ViewerEvents['error']>;
   /**
-   * An environment cannot be fetched or read, and the model is shown without it; or the GPU has not come yet. `message`
-   * in one line, and `code`.
+   * An environment cannot be fetched or read, and the model is shown without it; the image cannot be denoised, and is
+   * shown with its noise; or the GPU has not come yet. `message` in one line, and `code`.
    */
   warning: CustomEvent<Omit<ViewerEvents['warning'], 'error'> & { readonly error: unknown }>;
   /** The image has one more sample per pixel. */

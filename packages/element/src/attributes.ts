@@ -155,6 +155,11 @@ export const ATTRIBUTES = {
    * Basis Universal transcoder, or a function that returns it or a promise of it.
    */
   'ktx2-transcoder': 'text',
+  /**
+   * Address of an ES module whose default export is what `denoising()` of `@glanz/viewer/denoise` returns: images are
+   * denoised while they have few samples.
+   */
+  denoise: 'text',
 } as const satisfies Readonly<Record<string, AttributeKind>>;
 
 /** Name of an attribute of the element. */

@@ -7,6 +7,7 @@ import type { ElementBlobOptions, GlanzViewerConstructor, GlanzViewerElement, Gl
 import { attributeFault, numberIn, TONE_MAP_NAMES } from './attribute-checks';
 import { ATTRIBUTES, type AttributeName } from './attributes';
 import { packagedDecoders, type DecoderAddresses } from './decoders';
+import { denoiseBy } from './denoise-module';
 import { ElementError } from './errors';
 import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
 import { adoptProperties, reflectAttributes } from './reflect';
@@ -22,6 +23,8 @@ const VIEW: ReadonlySet<string> = new Set([
   'max-camera-orbit',
 ]);
 const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']);
+/** Warnings about an image that is shown nevertheless: no message lies over it. */
+const QUIET: ReadonlySet<string> = new Set(['viewer/environment', 'viewer/denoise']);
 /**
  * Samples per pixel from which on an image is better than its poster: it has an eighth of the noise of its first
  * sample.
@@ -120,7 +123,8 @@ function makeClass(): GlanzViewerConstructor {
       } else if (name === 'src') {
         this.#source = undefined;
         this.#load(viewer);
-      } else if (name === 'variant-name') this.#setVariant(viewer);
+      } else if (name === 'denoise') this.#denoise(viewer);
+      else if (name === 'variant-name') this.#setVariant(viewer);
       else if (LIGHT.has(name)) {
         viewer.background = this.#background;
         viewer.setEnvironment(this.#environment).catch((error: unknown) => this.#fail(error, 'warning'));
@@ -290,6 +294,7 @@ function makeClass(): GlanzViewerConstructor {
       for (const name of Object.keys(ATTRIBUTES) as AttributeName[]) this.#checkAttribute(name);
       this.#apply(viewer);
       this.#listen(viewer, shadow);
+      if (this.getAttribute('denoise')) this.#denoise(viewer);
       if (load) this.#load(viewer);
     }
 
@@ -363,7 +368,7 @@ function makeClass(): GlanzViewerConstructor {
         this.#emit('error', detail);
       });
       viewer.on('warning', (detail) => {
-        if (detail.code !== 'viewer/environment') alert(detail.message);
+        if (!QUIET.has(detail.code)) alert(detail.message);
         this.#emit('warning', detail);
       });
       viewer.on('converged', () => this.#reveal());
@@ -435,6 +440,13 @@ function makeClass(): GlanzViewerConstructor {
       viewer.orbitLimits = {};
       const variant = this.getAttribute('variant-name');
       await viewer.load(source, variant === null || variant === 'default' ? {} : { variant });
+    }
+
+    /** Loads the denoiser that `denoise` names. */
+    #denoise(viewer: Viewer): void {
+      const address = this.getAttribute('denoise');
+      const current = () => viewer === this.#viewer && address === this.getAttribute('denoise');
+      denoiseBy(viewer, address, current).catch((error: unknown) => this.#fail(error, 'warning'));
     }
 
     #setVariant(viewer: Viewer): void {

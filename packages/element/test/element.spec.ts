@@ -11,7 +11,9 @@ import {
   type Served,
 } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
+import { build } from 'esbuild';
 import type { GlanzViewerElement } from '@glanz/element';
+import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 import { dracoModel, ktx2Model } from './packed';
 
 interface TestWindow {
@@ -570,6 +572,102 @@ test('decoders can be replaced, and one that does not start is an error that say
     });
   }
   complaints = complaints.filter((text) => !/Content Security Policy/.test(text));
+});
+
+/** Serves the guide's module that denoises, with its weights beside it; those in the folder `damaged` are not weights. */
+async function serveDenoiser(page: Page): Promise<void> {
+  const {
+    outputFiles: [module],
+  } = await build({
+    entryPoints: [fileURLToPath(new URL('../../../apps/docs/examples/denoise-module.ts', import.meta.url))],
+    bundle: true,
+    format: 'esm',
+    target: 'es2022',
+    conditions: ['@glanz/source'],
+    plugins: [weslSource()],
+    write: false,
+  });
+  await page.route('**/denoise.js', (route) =>
+    route.fulfill({ contentType: 'text/javascript', body: Buffer.from(module!.contents) }),
+  );
+  const weights = fileURLToPath(new URL('../../denoise-weights/weights/', import.meta.url));
+  await page.route('**/*.tza', (route) => {
+    const { pathname } = new URL(route.request().url());
+    return pathname.includes('damaged')
+      ? route.fulfill({ body: Buffer.from('no weights') })
+      : route.fulfill({ path: weights + pathname.slice(1) });
+  });
+}
+
+/** Whether the frame that follows a change of the exposure, which is of no concern to a denoiser, shows it. */
+const showsDenoised = (page: Page, exposure: number) =>
+  page.evaluate(
+    (value) =>
+      new Promise<boolean>((resolve) => {
+        const element = document.querySelector('glanz-viewer')!;
+        element.viewer!.on('frame', ({ denoised }) => resolve(denoised));
+        element.exposureEv = value;
+      }),
+    exposure,
+  );
+
+const setDenoise = (page: Page, address: string | null) =>
+  page.evaluate((value) => void (document.querySelector('glanz-viewer')!.denoise = value), address);
+
+test('images are denoised by the module that `denoise` names, and say so', async ({ page }) => {
+  await serveDenoiser(page);
+  await open(page, { denoise: 'denoise.js', samples: '2' });
+  await expect.poll(() => showsDenoised(page, 0.5)).toBe(true);
+  const saved = () =>
+    page.evaluate(async () =>
+      new TextDecoder('latin1').decode(await (await document.querySelector('glanz-viewer')!.toBlob()).arrayBuffer()),
+    );
+  expect(await saved()).toContain('tEXtDenoised');
+  const clean = await shot(page);
+
+  // Without it the film is shown, which is that of an element that has never had one.
+  await setDenoise(page, null);
+  expect(await showsDenoised(page, 0.25)).toBe(false);
+  expect(await showsDenoised(page, 0.5)).toBe(false);
+  expect(await saved()).not.toContain('tEXtDenoised');
+  const film = await shot(page);
+  expect(film.cells).not.toEqual(clean.cells);
+  await page.evaluate(() => document.querySelector('glanz-viewer')!.remove());
+  await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST, samples: '2', 'exposure-ev': '0.5' });
+  await done(page);
+  expect((await shot(page)).cells).toEqual(film.cells);
+  expect(await heard(page, 'warning')).toEqual([]);
+  expect(await heard(page, 'error')).toEqual([]);
+});
+
+test('a denoiser that does not load is a warning, and the image is there with its noise', async ({ page }) => {
+  await serveDenoiser(page);
+  await page.route('**/none.js', (route) => route.fulfill({ status: 404 }));
+  await page.route('**/other.js', (route) =>
+    route.fulfill({ contentType: 'text/javascript', body: 'export default { denoise: true };' }),
+  );
+  await open(page, { denoise: 'none.js' });
+  const warnings = () => heard(page, 'warning');
+  await expect.poll(warnings).toHaveLength(1);
+  await setDenoise(page, 'other.js');
+  await expect.poll(warnings).toHaveLength(2);
+  await setDenoise(page, 'damaged/denoise.js');
+  await expect.poll(warnings).toHaveLength(3);
+  expect(await warnings()).toEqual([
+    { code: 'element/denoise', message: expect.stringContaining('denoise="none.js"') },
+    { code: 'element/denoise', message: expect.stringMatching(/denoise="other\.js".*denoising\(\)/) },
+    { code: 'viewer/denoise', message: expect.stringContaining('shown with its noise') },
+  ]);
+  expect(await showsDenoised(page, 0.5)).toBe(false);
+  expect(await heard(page, 'error')).toEqual([]);
+  await expect(viewer(page).getByRole('alert')).toBeHidden();
+  // The module that is named last counts; that of the others is not reported any more.
+  await page.evaluate(() => {
+    for (const address of ['none.js', 'denoise.js']) document.querySelector('glanz-viewer')!.denoise = address;
+  });
+  await expect.poll(() => showsDenoised(page, 0.25)).toBe(true);
+  expect(await warnings()).toHaveLength(3);
+  complaints = complaints.filter((text) => !text.includes('404'));
 });
 
 test('a broken environment is a warning, at the start and later, and the model is there', async ({ page }) => {

@@ -48,6 +48,7 @@ const WORDS: Readonly<Record<Single<AttributeName>, true>> = {
   exposure: true,
   samples: true,
   noise: true,
+  denoise: true,
 };
 
 /**

@@ -19,6 +19,7 @@ describe('on a server', () => {
           samples: null,
           dracoDecoder: '/draco.js',
           ktx2Transcoder: '/basis.js',
+          denoise: '/denoise.js',
           className: 'hero',
           style: { height: 400 },
           onLoad: () => undefined,
@@ -37,6 +38,7 @@ describe('on a server', () => {
       'exposure-ev="1.5"',
       'draco-decoder="/draco.js"',
       'ktx2-transcoder="/basis.js"',
+      'denoise="/denoise.js"',
       'class="hero"',
       'style="height:400px"',
     ])

@@ -1,5 +1,6 @@
 import type { GltfDecoders, Ktx2Decoder } from '@glanz/gltf';
 import { ElementError } from '../errors';
+import { importDefault } from '../import-default';
 
 /**
  * Addresses of ES modules that replace decoders of this package, absolute or relative to the page; they are read when a
@@ -29,14 +30,8 @@ export function packagedDecoders(addresses: DecoderAddresses = {}): GltfDecoders
   const start = async (name: keyof DecoderAddresses, own: () => Promise<Module>): Promise<unknown> => {
     const address = addresses[name];
     try {
-      // Bundlers cannot know this address.
-      const given = address
-        ? ((await import(
-            /* webpackIgnore: true */ /* turbopackIgnore: true */ /* @vite-ignore */ new URL(address, document.baseURI)
-              .href
-          )) as Module)
-        : await own();
-      return await (typeof given.default === 'function' ? (given.default as () => unknown)() : given.default);
+      const given = address ? await importDefault(address) : (await own()).default;
+      return await (typeof given === 'function' ? (given as () => unknown)() : given);
     } catch (cause) {
       throw new ElementError(
         'element/decoder',
