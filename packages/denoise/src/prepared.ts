@@ -13,6 +13,20 @@ const ENCODE_COST = 200;
 /** Milliseconds between two returns to the event loop. */
 const SLICE_MS = 12;
 
+/**
+ * Shaders are composed and weights packed on the calling thread, which has other things to do as well.
+ *
+ * @returns What returns to the event loop where a slice of time is over.
+ */
+function pauses(): () => Promise<void> {
+  let since = performance.now();
+  return async () => {
+    if (performance.now() - since < SLICE_MS) return;
+    await new Promise((resolve) => setTimeout(resolve));
+    since = performance.now();
+  };
+}
+
 /** A layer that is ready to be dispatched. */
 interface ReadyLayer {
   readonly plan: LayerPlan;
@@ -88,14 +102,16 @@ export class Prepared {
   ): Promise<Prepared> {
     const prepared = new Prepared(device, kernels, await kernels.prelude(), size, tiled, buffers);
     try {
-      await Promise.all(tiled.plan.layers.map((layer) => kernels.convolution(layer)));
-      let since = performance.now();
+      const pause = pauses();
+      const compiled: Promise<Kernel>[] = [];
+      for (const layer of tiled.plan.layers) {
+        compiled.push(kernels.convolution(layer));
+        await pause();
+      }
+      await Promise.all(compiled);
       for (const layer of tiled.plan.layers) {
         prepared.#layers.push(await prepared.#ready(layer));
-        // Weights are packed on the calling thread, which has other things to do as well.
-        if (performance.now() - since < SLICE_MS) continue;
-        await new Promise((resolve) => setTimeout(resolve));
-        since = performance.now();
+        await pause();
       }
     } catch (error) {
       prepared.destroy();

@@ -1,0 +1,167 @@
+import { fileURLToPath } from 'node:url';
+import { servePage, watch, type Served } from '@glanz/browser';
+import type { FilmDenoiser } from '@glanz/denoise/film';
+import { expect, test, type Page } from '@playwright/test';
+import type { ViewerOptions } from '@glanz/viewer';
+import { front, model, sky } from './open';
+
+// What the page's thread does while an image is denoised, counted rather than timed: `bench -- denoise-thread` measures.
+
+interface Calls {
+  /** Names of the layers, or of their parts, in each submission; and what happened between submissions. */
+  readonly events: (readonly string[] | 'turn' | 'abort')[];
+  /** Bytes of each mapping, and of each write on the queue. */
+  readonly mapped: number[];
+  readonly written: number[];
+}
+interface TestWindow {
+  calls: Calls;
+  filmDenoiser: (device: GPUDevice) => Promise<FilmDenoiser>;
+  /** Denoises a square of noise; aborts where a part of the work is done. */
+  denoiseNoise: (size: number, abortAt?: number) => Promise<string>;
+}
+declare const window: TestWindow & Pick<Window, 'make' | 'file'> & typeof globalThis;
+
+let served: Served;
+test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.afterAll(() => served.close());
+test.use({ viewport: { width: 640, height: 480 } });
+
+let complaints: string[] = [];
+test.beforeEach(async ({ page }) => {
+  complaints = watch(page, served.origin);
+  await page.goto(served.origin);
+  await page.evaluate(() => {
+    const calls: Calls = (window.calls = { events: [], mapped: [], written: [] });
+    let layers: string[] = [];
+    const { submit, writeBuffer } = GPUQueue.prototype;
+    const { pushDebugGroup } = GPUComputePassEncoder.prototype;
+    const { getMappedRange } = GPUBuffer.prototype;
+    GPUComputePassEncoder.prototype.pushDebugGroup = function (name) {
+      layers.push(name);
+      pushDebugGroup.call(this, name);
+    };
+    GPUQueue.prototype.submit = function (commands) {
+      calls.events.push(layers);
+      layers = [];
+      submit.call(this, commands);
+    };
+    GPUQueue.prototype.writeBuffer = function (...given: Parameters<typeof writeBuffer>) {
+      const [, , data, , size] = given;
+      const unit = (data as Partial<Uint8Array>).BYTES_PER_ELEMENT ?? 1;
+      calls.written.push(size === undefined ? data.byteLength : unit * size);
+      writeBuffer.apply(this, given);
+    };
+    GPUBuffer.prototype.getMappedRange = function (...given) {
+      const range = getMappedRange.apply(this, given);
+      calls.mapped.push(range.byteLength);
+      return range;
+    };
+    window.denoiseNoise = async (size, abortAt = Infinity) => {
+      const device = await (await navigator.gpu.requestAdapter())!.requestDevice();
+      const image = (fill: (i: number) => number) => {
+        const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC;
+        const buffer = device.createBuffer({ size: 16 * size * size, usage, mappedAtCreation: true });
+        new Float32Array(buffer.getMappedRange()).forEach((_, i, all) => (all[i] = fill(i)));
+        buffer.unmap();
+        return buffer;
+      };
+      const images = {
+        width: size,
+        height: size,
+        color: image(Math.random),
+        albedo: image(() => 0.5),
+        normal: image((i) => (i % 4 === 2 ? 1 : 0)),
+        variance: image(() => 0.08),
+      };
+      const denoiser = await window.filmDenoiser(device);
+      // Shaders and memory for the size are made at the first image, which is not finished here.
+      const first = new AbortController();
+      await denoiser.denoise(images, { signal: first.signal, onProgress: () => first.abort() }).catch(() => undefined);
+      for (const list of Object.values(calls) as unknown[][]) list.length = 0;
+      let running = true;
+      const { port1, port2 } = new MessageChannel();
+      port1.onmessage = () => {
+        if (!running) return;
+        if (calls.events.at(-1) !== 'turn') calls.events.push('turn');
+        port2.postMessage(0);
+      };
+      port2.postMessage(0);
+      const abort = new AbortController();
+      const end = await denoiser
+        .denoise(images, {
+          signal: abort.signal,
+          onProgress: (done) => {
+            if (done < abortAt || abort.signal.aborted) return;
+            abort.abort();
+            calls.events.push('abort');
+          },
+        })
+        .then(
+          () => 'done',
+          (error: Error) => error.name,
+        );
+      // What would still be submitted comes by now.
+      await device.queue.onSubmittedWorkDone();
+      running = false;
+      device.destroy();
+      return end;
+    };
+  });
+});
+test.afterEach(() => expect(complaints).toEqual([]));
+
+const submissions = (events: Calls['events']) => events.filter((event) => typeof event !== 'string');
+const callsOf = (page: Page) => page.evaluate(() => window.calls);
+
+test('while an image is denoised the page runs between submissions, and reads and writes no pixels', async ({
+  page,
+}) => {
+  expect(await page.evaluate(() => window.denoiseNoise(128))).toBe('done');
+  const { events, mapped, written } = await callsOf(page);
+  expect(submissions(events).length).toBeGreaterThan(12);
+  // In one turn: the film is copied and its fireflies are held back, and two submissions of the network go ahead of the
+  // GPU; two that end together are followed by two.
+  const turns = events.reduce<number[]>(
+    (counts, event) => (event === 'turn' ? [...counts, 0] : [...counts.slice(0, -1), counts.at(-1)! + 1]),
+    [0],
+  );
+  expect(Math.max(...turns)).toBeLessThanOrEqual(4);
+  expect(mapped).toEqual([]);
+  // Sizes and windows of the layers.
+  expect(written.reduce((sum, bytes) => sum + bytes, 0)).toBeLessThan(4096);
+});
+
+test('an abort is followed by no other layer', async ({ page }) => {
+  expect(await page.evaluate(() => window.denoiseNoise(128, 0.3))).toBe('AbortError');
+  const { events } = await callsOf(page);
+  const at = events.indexOf('abort');
+  const before = submissions(events.slice(0, at));
+  expect(before.length).toBeGreaterThan(3);
+  expect(submissions(events.slice(at))).toEqual([]);
+  // What the GPU had not begun by then is the rest of a layer, or parts of two.
+  expect(new Set(before.at(-1)).size).toBeLessThanOrEqual(2);
+});
+
+test('the variance of a film is not read by the page', async ({ page }) => {
+  const bytes = await page.evaluate(
+    async ([base64, options]) => {
+      const viewer = window.make({ ...(options as ViewerOptions), samples: 40, keepSamples: false, pixelRatio: 0.25 });
+      await viewer.load(window.file(base64 as string, 'model.glb'));
+      for (let i = 0; viewer.state !== 'done' && i < 3000; i++) await new Promise((resolve) => setTimeout(resolve, 20));
+      const tracer = viewer.tracer!;
+      await tracer.setAovs(['albedo', 'normal']);
+      const denoiser = await window.filmDenoiser(viewer.device!);
+      const { mapped } = window.calls;
+      mapped.length = 0;
+      await denoiser.denoiseTracer(tracer);
+      const read = mapped.reduce((sum, one) => sum + one, 0);
+      viewer.destroy();
+      return { samples: tracer.samples, read, film: 16 * tracer.width * tracer.height };
+    },
+    [model.toString('base64'), { maxDepth: 3, camera: front, environment: sky, controls: false }] as const,
+  );
+  expect(bytes.samples).toBeGreaterThanOrEqual(32);
+  expect(bytes.film).toBeGreaterThan(50_000);
+  expect(bytes.read).toBeLessThan(1024);
+});
