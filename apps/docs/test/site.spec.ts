@@ -47,7 +47,7 @@ const WIDTHS = [360, 768, 1280] as const,
 const LOOKS = WIDTHS.flatMap((width) => SCHEMES.map((scheme) => [width, scheme] as const));
 /**
  * One page of each kind: home, guide, package, reference of an entry and of a package, parameters, results, table, live
- * examples, list.
+ * examples, list, images to compare.
  */
 const KINDS = [
   '/',
@@ -65,6 +65,7 @@ const KINDS = [
   '/guide/viewers',
   '/how/hierarchies',
   '/live',
+  '/guide/denoising',
 ];
 
 const isFull = process.env['GLANZ_FULL'] !== undefined;
@@ -252,6 +253,45 @@ test('the playground is one click away', async ({ page }) => {
   await page.getByRole('link', { name: 'Playground' }).first().click();
   await expect(page).toHaveURL(`${origin}/playground/index.html`);
   await expect(page.locator('canvas').first()).toBeAttached();
+});
+
+test('noisy and denoised images are compared by keys and by dragging, and nothing moves', async ({ page }) => {
+  const complaints = watchPage(page);
+  await page.setViewportSize({ width: 380, height: 900 });
+  await page.goto(`${origin}/guide/denoising`);
+  const frame = page.locator('.compare-frame');
+  const slider = frame.getByRole('slider');
+  const images = frame.getByRole('img');
+  const layout = () => page.locator('.compare').evaluate((figure) => JSON.stringify(figure.getBoundingClientRect()));
+  const before = await layout();
+  const visible = () => images.nth(1).evaluate((image) => getComputedStyle(image).clipPath);
+  expect(await visible()).toBe('inset(0px 50% 0px 0px)');
+  await slider.focus();
+  await page.keyboard.press('ArrowLeft');
+  expect(await visible()).toBe('inset(0px 51% 0px 0px)');
+  await expect(slider).toHaveAttribute('aria-valuetext', '49 %: 4 samples; the rest: 4 samples, denoised');
+  const box = (await frame.boundingBox())!;
+  await page.mouse.click(box.x + 0.25 * box.width, box.y + 0.5 * box.height);
+  expect(await visible()).toMatch(/^inset\(0px 7[456]% 0px 0px\)$/);
+
+  const shown = new Set<string>();
+  for (const samples of ['1', '4', '16', '64'])
+    for (const pair of ['noisy | denoised', 'denoised | reference', 'noisy | reference']) {
+      await page.getByRole('radio', { name: samples, exact: true }).check();
+      await page.getByRole('radio', { name: pair, exact: true }).check();
+      for (const image of await images.all()) {
+        await image.evaluate((one) => (one as HTMLImageElement).decode());
+        const natural = await image.evaluate((one) => [
+          (one as HTMLImageElement).naturalWidth,
+          (one as HTMLImageElement).naturalHeight,
+        ]);
+        expect(natural).toEqual([528, 396]);
+        shown.add((await image.getAttribute('alt'))!.replace(/^.*?\. /, ''));
+      }
+      expect(await layout()).toBe(before);
+    }
+  expect(shown.size).toBe(9);
+  expect(complaints).toEqual([]);
 });
 
 test('dark and light', async ({ page }) => {
