@@ -186,7 +186,7 @@ describe('TemporalFilter', () => {
     expect(spread((await run(shots(false), MEAN_ALONE)).image, 0.5)).toBeLessThan(1e-6);
   });
 
-  it('begins anew after a cut', async () => {
+  it('starts again after a cut', async () => {
     const { image } = await run(
       [
         { scene: wall, step: 'moves', color: () => 4 },
@@ -252,7 +252,7 @@ describe('TemporalFilter', () => {
   });
 
   it('smooths edges over frames', async () => {
-    // The edge between two walls lies within pixels of column 20, whose samples fall to either side by turns.
+    // The edge between two walls lies within pixels of column 20, whose samples fall to either side alternately.
     const edge = (frame: number) => (x: number, y: number) => {
       const right = x > 20 || (x === 20 && frame % 2 === 0);
       return { ...wall(x, y), radiance: right ? 1 : 0.2, albedo: right ? 1 : 0.2, instance: right ? 1 : 2 };

@@ -50,7 +50,7 @@ interface Series {
   readonly milliseconds: number[];
 }
 
-/** Moving pictures: an orbit of 120 frames, one sample each, raw and with the frames before, against references. */
+/** Moving images: an orbit of 120 frames, one sample each, raw and with the frames before, against references. */
 export const benchmark: Benchmark = {
   description: `an orbit of ${FRAMES} frames, one sample each, raw and filtered over time: FLIP against references of the frames, flicker, frame times`,
   options: {
