@@ -24,6 +24,7 @@ export default glanzPackage({
   wgsl: 'src/wgsl/index.ts',
   wide: 'src/wide/index.ts',
   'wgsl-wide': 'src/wgsl/wide/index.ts',
+  gpu: 'src/gpu/index.ts',
   workers: 'src/worker/workers.ts',
   worker: 'src/worker/worker.ts',
 });

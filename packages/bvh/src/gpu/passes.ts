@@ -1,0 +1,168 @@
+import type { Kernel } from './device';
+import type { CommonKernels } from './kernels';
+import type { BuildPlan, ScratchName } from './plan';
+
+/** Bytes from one set of numbers to the next, as offsets of bindings must be aligned. */
+export const PARAMS_STRIDE = 256;
+const PARAMS_BYTES = 48;
+/** Up to so many tiles, one workgroup adds up the digits of all. */
+const FEW_TILES = 16;
+
+/** Numbers of a dispatch, see `BvhGpuParams`. */
+export interface Params {
+  readonly count: number;
+  readonly vertices: number;
+  readonly maxLeaf: number;
+  readonly maxDepth: number;
+  readonly level?: number;
+  readonly firstDraft?: number;
+  readonly draftBase?: number;
+  readonly firstHead?: number;
+  readonly shift?: number;
+  readonly tiles?: number;
+  readonly holes?: number;
+}
+
+/** One dispatch. */
+export interface Step {
+  readonly kernel: Kernel;
+  readonly params?: Params;
+  readonly buffers: Readonly<Record<number, GPUBuffer>>;
+  readonly workgroups: number;
+}
+
+/** The dispatches of a build, in the order of its phases. */
+export interface Phases {
+  readonly primitives: readonly Step[];
+  readonly sort: readonly Step[];
+  readonly cluster: readonly Step[];
+  readonly layout: readonly Step[];
+}
+
+/** Words of a set of numbers. */
+function words(p: Params): readonly number[] {
+  const { level = 0, firstDraft = 0, draftBase = 0, firstHead = 0, shift = 0, tiles = 0, holes = 0 } = p;
+  return [p.count, p.vertices, p.maxLeaf, p.maxDepth, level, firstDraft, draftBase, firstHead, shift, tiles, holes];
+}
+
+/** Lists what a build over an input dispatches. */
+export function listPhases(
+  plan: BuildPlan,
+  kernels: CommonKernels,
+  scratch: Readonly<Record<ScratchName, GPUBuffer>>,
+  input: { readonly kernel: Kernel; readonly buffers: Readonly<Record<number, GPUBuffer>>; readonly params: Params },
+): Phases {
+  const { count, tiles, levels } = plan;
+  const { params } = input;
+  const { globals, primitives, digits, places, heads, nodes, order } = scratch;
+  const threads = Math.ceil(count / 256);
+  const sort: Step[] = [];
+  for (let pass = 0; pass < 4; pass++) {
+    const [from, to] = pass % 2 === 0 ? (['A', 'B'] as const) : (['B', 'A'] as const);
+    const keys = scratch[`keys ${from}`];
+    const numbers = { ...params, shift: 8 * pass, tiles, holes: pass === 0 ? 1 : 0 };
+    sort.push(
+      { kernel: kernels.histogram, params: numbers, buffers: { 1: globals, 2: keys, 3: digits }, workgroups: tiles },
+      { kernel: kernels.scan, params: numbers, buffers: { 1: digits }, workgroups: tiles <= FEW_TILES ? 1 : 256 },
+      {
+        kernel: kernels.scatter,
+        params: numbers,
+        buffers: {
+          1: globals,
+          2: digits,
+          3: keys,
+          4: scratch[`values ${from}`],
+          5: scratch[`keys ${to}`],
+          6: scratch[`values ${to}`],
+        },
+        workgroups: tiles,
+      },
+    );
+  }
+  const levelParams = levels.map(({ firstDraft, firstHead }, level): Params => ({
+    ...params,
+    level,
+    firstDraft,
+    firstHead,
+    draftBase: level === 0 ? 0 : (levels[1]?.firstDraft ?? 0),
+  }));
+  const drafts = (level: number) => scratch[level === 0 ? 'lowest drafts' : 'drafts'];
+  const clusters = (level: number) => scratch[level % 2 === 0 ? 'clusters A' : 'clusters B'];
+  return {
+    primitives: [
+      {
+        kernel: input.kernel,
+        params,
+        buffers: { ...input.buffers, 3: primitives, 4: globals },
+        workgroups: threads,
+      },
+      {
+        kernel: kernels.codes,
+        params,
+        buffers: { 1: primitives, 2: globals, 3: scratch['keys A'] },
+        workgroups: threads,
+      },
+    ],
+    sort,
+    cluster: levels.map(({ blocks }, level) => ({
+      kernel: level === 0 ? kernels.lowest : kernels.cluster,
+      params: levelParams[level] as Params,
+      buffers: {
+        1: globals,
+        ...(level === 0 ? { 2: scratch['values A'], 3: primitives } : { 2: clusters(level - 1) }),
+        4: clusters(level),
+        5: drafts(level),
+        6: places,
+        7: heads,
+      },
+      workgroups: blocks,
+    })),
+    layout: [
+      { kernel: kernels.root, buffers: { 1: globals, 2: heads, 3: places, 5: nodes, 6: order }, workgroups: 1 },
+      ...levels
+        .map(({ blocks }, level) => ({
+          kernel: kernels.place,
+          params: levelParams[level] as Params,
+          buffers: { 1: globals, 2: drafts(level), 3: places, 4: heads, 5: nodes, 6: order },
+          workgroups: blocks,
+        }))
+        .reverse(),
+    ],
+  };
+}
+
+/** The numbers of all steps, for a uniform buffer. */
+export function paramsOf(steps: readonly Step[]): Uint32Array<ArrayBuffer> {
+  const data = new Uint32Array((PARAMS_STRIDE / 4) * steps.length);
+  for (const [i, { params }] of steps.entries()) if (params) data.set(words(params), (PARAMS_STRIDE / 4) * i);
+  return data;
+}
+
+/**
+ * Records a step.
+ *
+ * @param uniforms Numbers, of which the step's are at `index`.
+ */
+export function encodeStep(
+  device: GPUDevice,
+  pass: GPUComputePassEncoder,
+  { kernel, params, buffers, workgroups }: Step,
+  uniforms: GPUBuffer,
+  index: number,
+): void {
+  if (workgroups === 0) return;
+  const entries = Object.entries(buffers).map(([binding, buffer]): GPUBindGroupEntry => ({
+    binding: Number(binding),
+    resource: { buffer },
+  }));
+  if (params)
+    entries.push({
+      binding: 0,
+      resource: { buffer: uniforms, offset: PARAMS_STRIDE * index, size: PARAMS_BYTES },
+    });
+  pass.setPipeline(kernel.pipeline);
+  pass.setBindGroup(0, device.createBindGroup({ layout: kernel.layout, entries }));
+  // Rows of workgroups, of which the last may be longer than needed.
+  const rows = Math.ceil(workgroups / device.limits.maxComputeWorkgroupsPerDimension);
+  pass.dispatchWorkgroups(Math.ceil(workgroups / rows), rows);
+}

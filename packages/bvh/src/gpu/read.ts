@@ -1,0 +1,22 @@
+import type { Blas } from '../blas';
+import { readBuffer } from './device';
+import type { GpuBlas } from './options';
+
+/**
+ * Copies a hierarchy from the GPU to the CPU, where queries, refits, `serializeBlas` and `packHierarchy` take it.
+ *
+ * @throws {BvhError} `bvh/device` where the device was lost.
+ */
+export async function readGpuBlas(device: GPUDevice, blas: GpuBlas): Promise<Blas> {
+  const { nodes, nodeCount, triangleIndices, triangleCount, bounds } = blas;
+  const [nodeData, indexData] = await Promise.all([
+    readBuffer(device, nodes, 64 * nodeCount),
+    readBuffer(device, triangleIndices, 4 * Math.max(1, triangleCount)),
+  ]);
+  return {
+    nodes: new Float32Array(nodeData),
+    nodeCount,
+    triangleIndices: new Uint32Array(indexData).slice(0, triangleCount),
+    bounds,
+  };
+}
