@@ -1,6 +1,7 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import type { GpuMesh } from '@glanz/bvh/gpu';
 import { createPushButton, type PushButtonLevel } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
 
@@ -135,6 +136,23 @@ export function assembly(name: string, parts: number, segments: number): BenchMe
     }
   }
   return { name, positions, indices };
+}
+
+/** A mesh in GPU buffers, as a builder on the GPU takes it, with what frees them. */
+export function inMemory(device: GPUDevice, { positions, indices }: BenchMesh): GpuMesh & { destroy(): void } {
+  const [vertices, corners] = ([positions, indices] as const).map((data) => {
+    const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST;
+    const buffer = device.createBuffer({ size: data.byteLength, usage });
+    device.queue.writeBuffer(buffer, 0, data);
+    return buffer;
+  }) as [GPUBuffer, GPUBuffer];
+  return {
+    positions: vertices,
+    vertexCount: positions.length / 3,
+    indices: corners,
+    triangleCount: indices.length / 3,
+    destroy: () => [vertices, corners].forEach((buffer) => buffer.destroy()),
+  };
 }
 
 /** A folder of test models, `GLANZ_ASSETS` or `shared/assets` beside the checkout; undefined if it is missing. */
