@@ -1,7 +1,9 @@
 import { buildBlas, type Blas } from '@glanz/bvh';
+import { GpuBuilder } from '@glanz/bvh/gpu';
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { BUILDERS } from '../src/benchmarks/bvh-brute';
+import { buildOnGpu } from '../src/bvh-brute/build-on-gpu';
 import { GpuTracer } from '../src/bvh-brute/gpu';
 import { Oracle } from '../src/bvh-brute/oracle';
 import { tryScenes } from '../src/bvh-brute/run';
@@ -36,6 +38,27 @@ describe('rays through random scenes against brute force: the small part of `npm
       expect(totals.gpuMarginal).toBeLessThan(360);
     });
   }
+
+  it('no ray is lost in trees that are built on the GPU (seed 2003)', async () => {
+    const device = await testDevice();
+    const builder = await GpuBuilder.create(device);
+    const lines: string[] = [];
+    const totals = await tryScenes({
+      seed: 2003,
+      scenes: 25,
+      raysPerScene: 300,
+      gpuEvery: 3,
+      gpus: gpus.slice(0, 1),
+      builders: [{}],
+      build: buildOnGpu(device, builder),
+      log: (line) => lines.push(line),
+    });
+    builder.destroy();
+    expect(lines).toEqual([]);
+    expect(totals).toMatchObject({ rays: 7_500, wrong: 0, gpuWrong: 0 });
+    expect(totals.hits).toBeGreaterThan(3_500);
+    expect(totals.gpuRays).toBeGreaterThan(2_000);
+  });
 
   it.each<[string, (blas: Blas) => void]>([
     [

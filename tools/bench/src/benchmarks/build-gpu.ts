@@ -144,7 +144,7 @@ export const benchmark: Benchmark = {
     };
 
     const seen = new Set<string>();
-    const list = (await benchMeshes(small, (line) => notes.push(line))).map(
+    const list = (await benchMeshes(quick, (line) => notes.push(line))).map(
       (mesh) => [mesh.indices.length / 3, () => mesh] as const,
     );
     for (const [count, make] of [...SIZED, ...list].filter(([triangles]) => triangles <= max)) {

@@ -1,9 +1,11 @@
 import type { BlasOptions } from '@glanz/bvh';
 import { fast } from '@glanz/bvh/fast';
 import { best, bestSplit } from '@glanz/bvh/best';
+import { GpuBuilder } from '@glanz/bvh/gpu';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { timed, type Benchmark } from '../benchmark';
+import { buildOnGpu } from '../bvh-brute/build-on-gpu';
 import { GpuTracer } from '../bvh-brute/gpu';
 import { tryScenes } from '../bvh-brute/run';
 import { writeBvhPage, type BruteDetails } from '../bvh/page';
@@ -24,16 +26,31 @@ export const BUILDERS: readonly BlasOptions[] = [
  */
 export const benchmark: Benchmark = {
   description: 'rays through random scenes against brute force, on the CPU and the GPU (--seed N)',
-  options: { pages: { type: 'string', help: 'folder to write the page of the docs and its data into' } },
+  options: {
+    pages: { type: 'string', help: 'folder to write the page of the docs and its data into' },
+    builder: { type: 'string', help: '"gpu": all trees are built on the GPU' },
+  },
   async run({ log, quick, gpu, seed = 1, values }) {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? { software: 'only' } : { gpu });
     const device = await requestDevice({ gpu: api });
     const gpus = await Promise.all((['binary', 'wide'] as const).map((layout) => GpuTracer.create(device, layout)));
+    const onGpu = values['builder'] === 'gpu';
+    const builder = onGpu ? await GpuBuilder.create(device) : undefined;
     const scenes = quick ? 50 : 1200,
       raysPerScene = quick ? 1000 : 8500,
       gpuEvery = quick ? 2 : 10;
     log(`seed ${seed}: ${scenes} scenes of ${raysPerScene} rays each`);
-    const totals = await tryScenes({ seed, scenes, raysPerScene, gpuEvery, gpus, builders: BUILDERS, log });
+    const totals = await tryScenes({
+      seed,
+      scenes,
+      raysPerScene,
+      gpuEvery,
+      gpus,
+      builders: BUILDERS,
+      log,
+      ...(builder ? { build: buildOnGpu(device, builder) } : {}),
+    });
+    builder?.destroy();
     device.destroy();
     if (totals.wrong + totals.gpuWrong > 0)
       throw new BenchError(
@@ -57,7 +74,7 @@ export const benchmark: Benchmark = {
         log(`wrote ${file}`);
     const none = { value: 0, relation: '<=' as const, source: 'no ray is lost' };
     return {
-      settings: { seed, scenes, raysPerScene, gpuEvery },
+      settings: { seed, scenes, raysPerScene, gpuEvery, builder: onGpu ? 'GPU' : 'all of the CPU' },
       gpu: { name: adapterName, software },
       figures: [
         timed('scenes', '1', [scenes]),

@@ -1,4 +1,12 @@
-import { buildBlas, buildTlas, type Blas, type BlasMesh, type BlasOptions, type Tlas } from '@glanz/bvh';
+import {
+  buildBlas,
+  buildTlas,
+  type Blas,
+  type BlasMesh,
+  type BlasOptions,
+  type Tlas,
+  type TriangleMesh,
+} from '@glanz/bvh';
 import { refitBlas } from '@glanz/bvh/refit';
 import { closestHitWide, widenBlas } from '@glanz/bvh/wide';
 import { anyHitBatch, anyHitBatchInstances, closestHitBatch, closestHitBatchInstances } from '@glanz/bvh/batch';
@@ -15,6 +23,9 @@ import {
   type RandomRays,
 } from './scenes';
 
+/** What builds the tree of a mesh. */
+export type BuildTree = (mesh: TriangleMesh, options: BlasOptions) => Blas | Promise<Blas>;
+
 /** What random scenes are tried with. */
 export interface BruteOptions {
   readonly seed: number;
@@ -27,7 +38,7 @@ export interface BruteOptions {
   /** Ways to build, tried in turn. */
   readonly builders: readonly BlasOptions[];
   /** Default `buildBlas`. */
-  readonly build?: typeof buildBlas;
+  readonly build?: BuildTree;
   log(line: string): void;
 }
 
@@ -73,12 +84,12 @@ interface Built {
   readonly name: string;
 }
 
-function build(
+async function build(
   scene: number,
   random: () => number,
   builders: readonly BlasOptions[],
-  buildTree: typeof buildBlas,
-): Built {
+  buildTree: BuildTree,
+): Promise<Built> {
   const single = random() < 0.7;
   const instances = single ? [{ mesh: randomMesh(random), transform: IDENTITY }] : randomInstances(random);
   const options: BlasOptions = {
@@ -92,12 +103,12 @@ function build(
     let blas: Blas;
     if (refitted && mesh.positions.every(Number.isFinite)) {
       // Built elsewhere, then refitted to where it is.
-      blas = buildTree(
+      blas = await buildTree(
         { positions: mesh.positions.map((x, i) => x * (1 + 0.5 * Math.sin(i))), indices: mesh.indices },
         options,
       );
       refitBlas(blas, mesh);
-    } else blas = buildTree(mesh, options);
+    } else blas = await buildTree(mesh, options);
     blases.set(mesh, blas);
   }
   const parts = instances.map(({ mesh }) => ({ blas: blases.get(mesh)!, mesh }));
@@ -324,7 +335,7 @@ export async function tryScenes({
   let complaints = 0;
   for (let scene = 0; scene < scenes; scene++) {
     const random = randomNumbers(sceneSeed(seed, scene));
-    const built = build(scene, random, builders, buildTree);
+    const built = await build(scene, random, builders, buildTree);
     const corners = cornersOf(built.instances);
     const rays = randomRays(raysPerScene, corners, built.closed, random);
     const complain = (line: string) => {

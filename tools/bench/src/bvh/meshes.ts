@@ -1,6 +1,7 @@
 import { existsSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import type { TriangleMesh } from '@glanz/bvh';
 import type { GpuMesh } from '@glanz/bvh/gpu';
 import { createPushButton, type PushButtonLevel } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
@@ -139,19 +140,22 @@ export function assembly(name: string, parts: number, segments: number): BenchMe
 }
 
 /** A mesh in GPU buffers, as a builder on the GPU takes it, with what frees them. */
-export function inMemory(device: GPUDevice, { positions, indices }: BenchMesh): GpuMesh & { destroy(): void } {
-  const [vertices, corners] = ([positions, indices] as const).map((data) => {
+export function inMemory(device: GPUDevice, { positions, indices }: TriangleMesh): GpuMesh & { destroy(): void } {
+  const upload = (data: Float32Array | Uint32Array | Uint16Array) => {
+    const words = data instanceof Uint16Array ? new Uint32Array(data) : data;
     const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST;
-    const buffer = device.createBuffer({ size: data.byteLength, usage });
-    device.queue.writeBuffer(buffer, 0, data);
+    const buffer = device.createBuffer({ size: Math.max(4, words.byteLength), usage });
+    device.queue.writeBuffer(buffer, 0, words.buffer, words.byteOffset, words.byteLength);
     return buffer;
-  }) as [GPUBuffer, GPUBuffer];
+  };
+  const vertices = upload(positions),
+    corners = indices && upload(indices);
   return {
     positions: vertices,
     vertexCount: positions.length / 3,
     indices: corners,
-    triangleCount: indices.length / 3,
-    destroy: () => [vertices, corners].forEach((buffer) => buffer.destroy()),
+    triangleCount: (indices ? indices.length : positions.length / 3) / 3,
+    destroy: () => [vertices, corners].forEach((buffer) => buffer?.destroy()),
   };
 }
 
