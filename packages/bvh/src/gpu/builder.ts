@@ -1,6 +1,6 @@
 import { BvhError } from '../error';
 import { BLAS_MAX_DEPTH, LEAF_MAX, TLAS_MAX_DEPTH, type Aabb } from '../layout';
-import { COPY_DST, COPY_SRC, PassClock, STORAGE, UNIFORM, createBuffers, readBuffer, type Kernel } from './device';
+import { COPY_DST, COPY_SRC, PassClock, STORAGE, createBuffers, readBuffer, type Kernel } from './device';
 import { compileCommon, compilePrimitives, compileTriangles, type CommonKernels, type InputKind } from './kernels';
 import type {
   GpuBlas,
@@ -12,7 +12,8 @@ import type {
   GpuMesh,
   GpuTree,
 } from './options';
-import { encodeStep, listPhases, PARAMS_STRIDE, paramsOf, type Params, type Step } from './passes';
+import { expectBuffer, inputOf, whole } from './input';
+import { listPhases, submitPhases, type Params } from './passes';
 import { checkPlan, GLOBALS_BYTES, planBuild, planBytes, type BuildPlan, type ScratchName } from './plan';
 
 /** What is built over. */
@@ -91,26 +92,13 @@ export class GpuBuilder {
   async buildBlas(mesh: GpuMesh, options: GpuBlasOptions = {}): Promise<GpuBlas> {
     const { maxLeafTriangles = 4, packTriangles = false } = options;
     whole('maxLeafTriangles', maxLeafTriangles, 1, LEAF_MAX);
-    const { positions, vertexCount, indices, triangleCount, indexFormat = 'uint32' } = mesh;
-    whole('vertexCount', vertexCount, 0, 2 ** 32 - 1);
-    whole('triangleCount', triangleCount, 0, 2 ** 32 - 1);
-    if (indexFormat !== 'uint16' && indexFormat !== 'uint32')
-      throw new BvhError('bvh/options', `indexFormat is ${String(indexFormat)}; it must be 'uint16' or 'uint32'.`);
-    expectBuffer('bvh/positions', 'positions', positions, 12 * vertexCount);
-    if (indices) expectBuffer('bvh/indices', 'indices', indices, (indexFormat === 'uint16' ? 6 : 12) * triangleCount);
-    else if (vertexCount < 3 * triangleCount)
-      throw new BvhError(
-        'bvh/indices',
-        `${triangleCount} triangles without indices need ${3 * triangleCount} vertices; there are ${vertexCount}.`,
-      );
-    const kind = indices ? indexFormat : 'triangles';
+    const { kind, buffers } = inputOf(mesh);
     const params = {
-      count: triangleCount,
-      vertices: vertexCount,
+      count: mesh.triangleCount,
+      vertices: mesh.vertexCount,
       maxLeaf: maxLeafTriangles,
       maxDepth: BLAS_MAX_DEPTH,
     };
-    const buffers: Record<number, GPUBuffer> = indices ? { 1: positions, 2: indices } : { 1: positions };
     return this.#enqueue(async () => {
       const { order, count, ...tree } = await this.#build({ kind, buffers, params }, 'triangles', options);
       const own = [tree.nodes, order];
@@ -214,10 +202,10 @@ export class GpuBuilder {
     const clock = timestamps ? new PassClock(device, PHASES) : undefined;
     try {
       const phases = listPhases(planBuild(params.count), this.#common, buffers, { ...input, kernel });
-      this.#run(
+      submitPhases(
+        device,
         PHASES.map((name) => [name, phases[name]] as const),
-        buffers.globals,
-        clock,
+        { globals: buffers.globals, clock },
       );
       const globals = await readBuffer(device, buffers.globals, GLOBALS_BYTES);
       this.#expectAlive();
@@ -227,33 +215,6 @@ export class GpuBuilder {
     } finally {
       clock?.destroy();
     }
-  }
-
-  /** Submits phases, each in a pass. */
-  #run(phases: readonly (readonly [string, readonly Step[]])[], globals?: GPUBuffer, clock?: PassClock): void {
-    const device = this.#device;
-    const all = phases.flatMap(([, steps]) => steps);
-    const uniforms = device.createBuffer({
-      label: 'bvh numbers',
-      size: PARAMS_STRIDE * all.length,
-      usage: UNIFORM | COPY_DST,
-    });
-    device.queue.writeBuffer(uniforms, 0, paramsOf(all));
-    const encoder = device.createCommandEncoder({ label: 'bvh build' });
-    if (globals) encoder.clearBuffer(globals);
-    let index = 0;
-    for (const [name, steps] of phases) {
-      const pass = encoder.beginComputePass({
-        label: `bvh ${name}`,
-        ...(clock ? { timestampWrites: clock.writes(name) } : {}),
-      });
-      for (const step of steps) encodeStep(device, pass, step, uniforms, index++);
-      pass.end();
-    }
-    clock?.resolve(encoder);
-    device.queue.submit([encoder.finish()]);
-    // Freed once the GPU is done.
-    uniforms.destroy();
   }
 
   /** Copies a result out of the memory that is reused. */
@@ -308,18 +269,7 @@ export class GpuBuilder {
       buffers: { ...buffers, 3: order, 4: triangles },
       workgroups: Math.ceil(params.count / 256),
     };
-    this.#run([['triangles', [step]]]);
+    submitPhases(this.#device, [['triangles', [step]]]);
     return triangles;
   }
-}
-
-function whole(name: string, value: number, min: number, max: number): void {
-  if (!(Number.isInteger(value) && value >= min && value <= max))
-    throw new BvhError('bvh/options', `${name} is ${value}; it must be a whole number from ${min} to ${max}.`);
-}
-
-/** @throws {BvhError} With the code. */
-function expectBuffer(code: string, name: string, { size, usage }: GPUBuffer, bytes: number): void {
-  if (!(usage & STORAGE)) throw new BvhError(code, `The buffer "${name}" lacks the usage STORAGE.`);
-  if (size < bytes) throw new BvhError(code, `The buffer "${name}" has ${size} bytes; it must have ${bytes} or more.`);
 }

@@ -1,6 +1,7 @@
 export { GpuBuilder } from './builder';
 export { gpuBuildMemory } from './plan';
 export { readGpuBlas } from './read';
+export { GpuRefitter, type RefitBlas } from './refit';
 export type {
   GpuBlas,
   GpuBlasOptions,

@@ -1,9 +1,9 @@
-import type { Kernel } from './device';
-import type { CommonKernels } from './kernels';
+import { COPY_DST, UNIFORM, type Kernel, type PassClock } from './device';
+import type { CommonKernels, SortKernels } from './kernels';
 import type { BuildPlan, ScratchName } from './plan';
 
 /** Bytes from one set of numbers to the next, as offsets of bindings must be aligned. */
-export const PARAMS_STRIDE = 256;
+const PARAMS_STRIDE = 256;
 const PARAMS_BYTES = 48;
 /** Up to so many tiles, one workgroup adds up the digits of all. */
 const FEW_TILES = 16;
@@ -45,6 +45,28 @@ function words(p: Params): readonly number[] {
   return [p.count, p.vertices, p.maxLeaf, p.maxDepth, level, firstDraft, draftBase, firstHead, shift, tiles, holes];
 }
 
+/** The steps of a pass of the sort; buffers are keys and values. */
+export function sortPass(
+  kernels: SortKernels,
+  params: Params & { readonly tiles: number },
+  globals: GPUBuffer,
+  digits: GPUBuffer,
+  from: readonly [GPUBuffer, GPUBuffer],
+  to: readonly [GPUBuffer, GPUBuffer],
+): Step[] {
+  const { tiles } = params;
+  return [
+    { kernel: kernels.histogram, params, buffers: { 1: globals, 2: from[0], 3: digits }, workgroups: tiles },
+    { kernel: kernels.scan, params, buffers: { 1: digits }, workgroups: tiles <= FEW_TILES ? 1 : 256 },
+    {
+      kernel: kernels.scatter,
+      params,
+      buffers: { 1: globals, 2: digits, 3: from[0], 4: from[1], 5: to[0], 6: to[1] },
+      workgroups: tiles,
+    },
+  ];
+}
+
 /** Lists what a build over an input dispatches. */
 export function listPhases(
   plan: BuildPlan,
@@ -56,29 +78,17 @@ export function listPhases(
   const { params } = input;
   const { globals, primitives, digits, places, heads, nodes, order } = scratch;
   const threads = Math.ceil(count / 256);
-  const sort: Step[] = [];
-  for (let pass = 0; pass < 4; pass++) {
+  const sort = [0, 1, 2, 3].flatMap((pass) => {
     const [from, to] = pass % 2 === 0 ? (['A', 'B'] as const) : (['B', 'A'] as const);
-    const keys = scratch[`keys ${from}`];
-    const numbers = { ...params, shift: 8 * pass, tiles, holes: pass === 0 ? 1 : 0 };
-    sort.push(
-      { kernel: kernels.histogram, params: numbers, buffers: { 1: globals, 2: keys, 3: digits }, workgroups: tiles },
-      { kernel: kernels.scan, params: numbers, buffers: { 1: digits }, workgroups: tiles <= FEW_TILES ? 1 : 256 },
-      {
-        kernel: kernels.scatter,
-        params: numbers,
-        buffers: {
-          1: globals,
-          2: digits,
-          3: keys,
-          4: scratch[`values ${from}`],
-          5: scratch[`keys ${to}`],
-          6: scratch[`values ${to}`],
-        },
-        workgroups: tiles,
-      },
+    return sortPass(
+      kernels,
+      { ...params, shift: 8 * pass, tiles, holes: pass === 0 ? 1 : 0 },
+      globals,
+      digits,
+      [scratch[`keys ${from}`], scratch[`values ${from}`]],
+      [scratch[`keys ${to}`], scratch[`values ${to}`]],
     );
-  }
+  });
   const levelParams = levels.map(({ firstDraft, firstHead }, level): Params => ({
     ...params,
     level,
@@ -132,7 +142,7 @@ export function listPhases(
 }
 
 /** The numbers of all steps, for a uniform buffer. */
-export function paramsOf(steps: readonly Step[]): Uint32Array<ArrayBuffer> {
+function paramsOf(steps: readonly Step[]): Uint32Array<ArrayBuffer> {
   const data = new Uint32Array((PARAMS_STRIDE / 4) * steps.length);
   for (const [i, { params }] of steps.entries()) if (params) data.set(words(params), (PARAMS_STRIDE / 4) * i);
   return data;
@@ -143,7 +153,7 @@ export function paramsOf(steps: readonly Step[]): Uint32Array<ArrayBuffer> {
  *
  * @param uniforms Numbers, of which the step's are at `index`.
  */
-export function encodeStep(
+function encodeStep(
   device: GPUDevice,
   pass: GPUComputePassEncoder,
   { kernel, params, buffers, workgroups }: Step,
@@ -165,4 +175,34 @@ export function encodeStep(
   // Rows of workgroups, of which the last may be longer than needed.
   const rows = Math.ceil(workgroups / device.limits.maxComputeWorkgroupsPerDimension);
   pass.dispatchWorkgroups(Math.ceil(workgroups / rows), rows);
+}
+
+/** Submits phases, each in a pass. */
+export function submitPhases(
+  device: GPUDevice,
+  phases: readonly (readonly [string, readonly Step[]])[],
+  { globals, clock }: { readonly globals?: GPUBuffer; readonly clock?: PassClock | undefined } = {},
+): void {
+  const all = phases.flatMap(([, steps]) => steps);
+  const uniforms = device.createBuffer({
+    label: 'bvh numbers',
+    size: PARAMS_STRIDE * all.length,
+    usage: UNIFORM | COPY_DST,
+  });
+  device.queue.writeBuffer(uniforms, 0, paramsOf(all));
+  const encoder = device.createCommandEncoder({ label: 'bvh build' });
+  if (globals) encoder.clearBuffer(globals);
+  let index = 0;
+  for (const [name, steps] of phases) {
+    const pass = encoder.beginComputePass({
+      label: `bvh ${name}`,
+      ...(clock ? { timestampWrites: clock.writes(name) } : {}),
+    });
+    for (const step of steps) encodeStep(device, pass, step, uniforms, index++);
+    pass.end();
+  }
+  clock?.resolve(encoder);
+  device.queue.submit([encoder.finish()]);
+  // Freed once the GPU is done.
+  uniforms.destroy();
 }

@@ -1,8 +1,8 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { expect, test } from 'vitest';
-import { COPY_DST, COPY_SRC, STORAGE, UNIFORM, createBuffers, readBuffer } from '../../src/gpu/device';
+import { COPY_DST, COPY_SRC, STORAGE, createBuffers, readBuffer } from '../../src/gpu/device';
 import { compileCommon } from '../../src/gpu/kernels';
-import { encodeStep, listPhases, PARAMS_STRIDE, paramsOf } from '../../src/gpu/passes';
+import { listPhases, submitPhases } from '../../src/gpu/passes';
 import { planBuild } from '../../src/gpu/plan';
 import { randomNumbers } from '../shapes';
 
@@ -34,16 +34,10 @@ test('the radix sort orders keys as Array.sort does, equal ones by their place, 
       buffers: {},
       params: { count, vertices: 0, maxLeaf: 4, maxDepth: 40 },
     });
-    const uniforms = device.createBuffer({ size: PARAMS_STRIDE * sort.length, usage: UNIFORM | COPY_DST });
-    device.queue.writeBuffer(uniforms, 0, paramsOf(sort));
-    const encoder = device.createCommandEncoder();
-    const pass = encoder.beginComputePass();
-    sort.forEach((step, i) => encodeStep(device, pass, step, uniforms, i));
-    pass.end();
-    device.queue.submit([encoder.finish()]);
+    submitPhases(device, [['sort', sort]]);
     const order = new Uint32Array(await readBuffer(device, scratch['values A'], 4 * count));
     expect([...order.subarray(0, expected.length)]).toEqual(expected);
-    for (const buffer of [uniforms, ...Object.values(scratch)]) buffer.destroy();
+    for (const buffer of Object.values(scratch)) buffer.destroy();
   }
   await expectNoGpuErrors();
 });
