@@ -5,7 +5,7 @@ import { GpuBuilder } from '../../src/gpu/index';
 import { sahCost } from '../../src/statistics';
 import { bruteForce, direction, randomNumbers, sphere, strewn } from '../shapes';
 import { checkBlas } from '../structure';
-import { buildOnGpu } from './builds';
+import { buildOnGpu, deviceWith } from './builds';
 
 let device: GPUDevice, builder: GpuBuilder;
 beforeAll(async () => {
@@ -149,4 +149,23 @@ test('indices of 16 and of 32 bits, and vertices in threes, give the same tree',
   }
   expect(trees[1]).toEqual(trees[0]);
   expect(trees[2]).toEqual(trees[0]);
+});
+
+test('workgroups in several rows, as large meshes need them, give the same tree', async () => {
+  const mesh = strewn(5000, 0.1, randomNumbers(7));
+  const { blas: expected, gpu } = await buildOnGpu(device, builder, mesh);
+  gpu.destroy();
+  // 20 workgroups of triangles in seven rows of three.
+  const narrow = deviceWith(device, {
+    limits: {
+      maxStorageBufferBindingSize: device.limits.maxStorageBufferBindingSize,
+      maxBufferSize: device.limits.maxBufferSize,
+      maxComputeWorkgroupsPerDimension: 3,
+    },
+  });
+  const rows = await GpuBuilder.create(narrow);
+  const { blas, gpu: other } = await buildOnGpu(device, rows, mesh);
+  expect(blas).toEqual(expected);
+  other.destroy();
+  rows.destroy();
 });

@@ -40,3 +40,13 @@ export async function buildOnGpu(
   input.destroy();
   return { blas, gpu };
 }
+
+/** The device with some of its members replaced, as a builder sees them. */
+export const deviceWith = (device: GPUDevice, members: Readonly<Record<string, unknown>>): GPUDevice =>
+  new Proxy(device, {
+    get: (target, name) => {
+      if (typeof name === 'string' && name in members) return members[name];
+      const value = Reflect.get(target, name) as unknown;
+      return typeof value === 'function' ? (value as () => unknown).bind(target) : value;
+    },
+  });

@@ -6,7 +6,7 @@ import { readBuffer } from '../../src/gpu/device';
 import { bvhStatistics } from '../../src/statistics';
 import { randomNumbers, sphere, strewn } from '../shapes';
 import { checkStructure } from '../structure';
-import { buildOnGpu, upload, uploadMesh } from './builds';
+import { buildOnGpu, deviceWith, upload, uploadMesh } from './builds';
 
 let device: GPUDevice, builder: GpuBuilder;
 beforeAll(async () => {
@@ -73,13 +73,7 @@ test('refuses what the device cannot bind before it allocates, with both numbers
   const large = 3_000_000;
   const buffers: number[] = [];
   // A device that counts allocations, and buffers that are large enough by what they say.
-  const counted = new Proxy(device, {
-    get: (target, name) => {
-      if (name === 'createBuffer') return ({ size }: GPUBufferDescriptor) => void buffers.push(size);
-      const value = Reflect.get(target, name) as unknown;
-      return typeof value === 'function' ? (value as () => unknown).bind(target) : value;
-    },
-  });
+  const counted = deviceWith(device, { createBuffer: ({ size }: GPUBufferDescriptor) => void buffers.push(size) });
   const positions = { size: 1e9, usage: GPUBufferUsage.STORAGE } as GPUBuffer;
   const other = await GpuBuilder.create(counted);
   const built = other.buildBlas({ positions, vertexCount: 3 * large, triangleCount: large });
