@@ -2,6 +2,7 @@ import { DeviceError } from '../errors';
 import { isSoftware } from '../device/software';
 import { lavapipeVersion, type GpuDescription } from './adapter-info';
 import { createPinned, firstLine, listAdapters, loadDawn, type Dawn } from './dawn';
+import { pacePolling } from './polling';
 import { packagedSwiftShader } from './swiftshader/unpack';
 import {
   canSwitchDrivers,
@@ -130,7 +131,10 @@ async function search(options: GpuOptions, user: DriverEnvironment): Promise<Nod
     }
     if (driver) switchToDriver(driver);
     const result = await tryDrivers(dawn, options);
-    if (typeof result !== 'string') return result;
+    if (typeof result !== 'string') {
+      if (result.software) pacePolling();
+      return result;
+    }
     tried.push(`${what}: ${result}`);
   }
   restoreDriverEnvironment(user);
@@ -154,7 +158,9 @@ async function search(options: GpuOptions, user: DriverEnvironment): Promise<Nod
  * `VK_DRIVER_FILES` or `VK_ICD_FILENAMES` or else the installed ones; Mesa's lavapipe ≥ 25; the SwiftShader of an
  * installed Chromium; the SwiftShader of the optional npm package `@sparticuz/chromium` (Linux x64), which needs
  * nothing else on the machine. The last three set `VK_DRIVER_FILES` of this process and work on the main thread only.
- * Also defines WebGPU's constants (`GPUBufferUsage`, …) globally, as browsers do.
+ * Also defines WebGPU's constants (`GPUBufferUsage`, …) globally, as browsers do. With a software adapter it also
+ * replaces `setImmediate`, by which Dawn polls, so that polls pause and leave the processor to the adapter; other
+ * callers notice nothing.
  *
  * The same options give the same object again; it lives as long as the process, as Dawn needs it to.
  *
