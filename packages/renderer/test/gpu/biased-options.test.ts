@@ -4,6 +4,7 @@ import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { biasedFlags } from '../../src/biased-options';
 import { resolveOptions } from '../../src/option-checks';
+import { samplesOf } from '../full';
 import { addQuad, camera, createScene, lambert, meanOf } from '../scenes';
 
 let device: GPUDevice;
@@ -75,9 +76,9 @@ describe('biased options', () => {
   });
 
   it('without caustics a mirror throws no light on the floor: as if it were black', async () => {
-    const lit = mean((await image(corner(mirror), { samples: 256 })).pixels);
-    const dark = mean((await image(corner(black), { samples: 256 })).pixels);
-    const without = mean((await image(corner(mirror), { samples: 256, caustics: false })).pixels);
+    const lit = mean((await image(corner(mirror), { samples: samplesOf(256, 2) })).pixels);
+    const dark = mean((await image(corner(black), { samples: samplesOf(256, 2) })).pixels);
+    const without = mean((await image(corner(mirror), { samples: samplesOf(256, 2), caustics: false })).pixels);
     expect(lit / dark).toBeGreaterThan(1.1);
     // What a rough mirror still gives is below the limit of sharpness: its tails.
     expect(Math.abs(without / dark - 1)).toBeLessThan(0.02);
@@ -113,8 +114,8 @@ describe('biased options', () => {
   });
 
   it('regularisation calms caustics and keeps nearly all of their light', async () => {
-    const truth = await image(corner(mirror), { samples: 512 });
-    const soft = await image(corner(mirror), { samples: 512, regularization: 0.5 });
+    const truth = await image(corner(mirror), { samples: samplesOf(512, 2) });
+    const soft = await image(corner(mirror), { samples: samplesOf(512, 2), regularization: 0.5 });
     expect(truth.variance / soft.variance).toBeGreaterThan(2);
     expect(Math.abs(mean(soft.pixels) / mean(truth.pixels) - 1)).toBeLessThan(0.05);
     // What the camera sees directly stays sharp: the first surface is not softened.

@@ -2,6 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Material, Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { samplesOf } from '../full';
 import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
@@ -45,7 +46,7 @@ function scene({
 
 async function render(made: Scene, extra: Partial<PathTracerOptions> & { samples?: number } = {}): Promise<PathTracer> {
   const tracer = await PathTracer.create(device, made, { ...options, ...extra });
-  for await (const _ of tracer.render({ samples: extra.samples ?? 32, maxSubmitMs: 1000 }));
+  for await (const _ of tracer.render({ samples: extra.samples ?? samplesOf(32, 4), maxSubmitMs: 1000 }));
   return tracer;
 }
 async function image(

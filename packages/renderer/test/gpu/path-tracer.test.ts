@@ -2,6 +2,7 @@ import { testDevice } from '@glanz/gpu';
 import { beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type RenderError, type PathTracerOptions, type RenderOptions } from '../../src/index';
 import type { Scene } from '@glanz/scene';
+import { samplesOf } from '../full';
 import { addQuad, addSphere, camera, createScene, lambert, meanOf } from '../scenes';
 
 let device: GPUDevice;
@@ -147,7 +148,7 @@ describe('light transport against analytic values', () => {
       parameters: { base_color: [0.5, 0.5, 0.5], specular_weight: 0, emission_luminance: 0.5 },
       double_sided: true,
     });
-    const { pixels, tracer } = await render(scene, { samples: 128, maxDepth: 24 });
+    const { pixels, tracer } = await render(scene, { samples: samplesOf(128, 2), maxDepth: 24 });
     const [r, g, b] = meanOf(pixels, 16, 0, 0, 16, 16);
     for (const value of [r, g, b]) expect(Math.abs(value - 1)).toBeLessThan(0.01);
     tracer.destroy();
