@@ -4,7 +4,7 @@
 // fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
-import { build } from 'esbuild';
+import { build, transformSync } from 'esbuild';
 import { preparePublished } from '../../../tools/pipeline/published-source.mjs';
 import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 import { packedWasm } from './wasm.mjs';
@@ -64,6 +64,10 @@ const SETTINGS = {
   write: false,
 };
 
+/** The style sheet of the shadow tree, which no minifier of scripts looks into. */
+const STYLE = /(\bconst STYLE = `)([^`]*)/;
+const minifiedStyle = (style) => transformSync(style, { loader: 'css', minify: true, target: 'es2022' }).code.trim();
+
 /** Modules that decode data when they are loaded; workers need none of it. */
 const DEFERRED = new Set(['@glanz/openpbr/tables']);
 
@@ -93,6 +97,7 @@ const sources = (missing, files) => ({
         text = text.replaceAll(from, to);
         missing.delete(`${file}: ${from}`);
       }
+      text = text.replace(STYLE, (_, before, style) => before + minifiedStyle(style));
       return { contents: importStatically(preparePublished(text, path), files), loader: 'ts' };
     });
   },

@@ -10,19 +10,18 @@ import { importDefault } from './import-default';
  * @throws {ElementError} `element/denoise`, after which the viewer shows its images with their noise.
  */
 export async function denoiseBy(viewer: Viewer, address: string | null, current: () => boolean): Promise<void> {
+  viewer.denoise = undefined;
+  if (!address) return;
   try {
-    const denoise = address ? await importDefault(address) : undefined;
-    if (!current()) return;
-    if (address && typeof denoise !== 'function')
-      throw new Error('its default export is not what denoising() of @glanz/viewer/denoise returns');
-    viewer.denoise = denoise as Denoising | undefined;
+    // The viewer refuses what denoising() has not made; a module without a default export has null.
+    const denoise = (await importDefault(address)) ?? null;
+    if (current()) viewer.denoise = denoise as Denoising;
   } catch (cause) {
-    if (!current()) return;
-    viewer.denoise = undefined;
-    throw new ElementError(
-      'element/denoise',
-      `The image is shown with its noise, since its denoiser does not load (denoise="${address}"): ${(cause as Error).message}`,
-      { cause },
-    );
+    if (current())
+      throw new ElementError(
+        'element/denoise',
+        `The denoiser does not start (denoise="${address}"): ${(cause as Error).message}`,
+        { cause },
+      );
   }
 }

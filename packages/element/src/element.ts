@@ -23,8 +23,6 @@ const VIEW: ReadonlySet<string> = new Set([
   'max-camera-orbit',
 ]);
 const LIGHT: ReadonlySet<string> = new Set(['environment-image', 'skybox-image']);
-/** Warnings about an image that is shown nevertheless: no message lies over it. */
-const QUIET: ReadonlySet<string> = new Set(['viewer/environment', 'viewer/denoise']);
 /**
  * Samples per pixel from which on an image is better than its poster: it has an eighth of the noise of its first
  * sample.
@@ -294,7 +292,7 @@ function makeClass(): GlanzViewerConstructor {
       for (const name of Object.keys(ATTRIBUTES) as AttributeName[]) this.#checkAttribute(name);
       this.#apply(viewer);
       this.#listen(viewer, shadow);
-      if (this.getAttribute('denoise')) this.#denoise(viewer);
+      this.#denoise(viewer);
       if (load) this.#load(viewer);
     }
 
@@ -368,7 +366,8 @@ function makeClass(): GlanzViewerConstructor {
         this.#emit('error', detail);
       });
       viewer.on('warning', (detail) => {
-        if (!QUIET.has(detail.code)) alert(detail.message);
+        // No message lies over an image that is shown nevertheless.
+        if (!/environment|denoise/.test(detail.code)) alert(detail.message);
         this.#emit('warning', detail);
       });
       viewer.on('converged', () => this.#reveal());

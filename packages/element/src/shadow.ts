@@ -1,6 +1,6 @@
 const STYLE = `
 :host { display: block; position: relative; width: 300px; height: 150px; contain: strict; }
-:host([hidden]) { display: none; }
+:host([hidden]), .hotspot[hidden], .message[hidden] { display: none; }
 canvas, .hotspots, .poster { position: absolute; inset: 0; width: 100%; height: 100%; }
 canvas { display: block; outline-offset: -2px; border-radius: inherit; }
 .poster { display: block; overflow: hidden; pointer-events: none; background: var(--poster-color, transparent); transition: opacity 0.3s; }
@@ -9,14 +9,12 @@ canvas { display: block; outline-offset: -2px; border-radius: inherit; }
 .poster.through img, .poster.through ::slotted(*) { pointer-events: none; }
 .hotspots { pointer-events: none; overflow: hidden; }
 .hotspot { position: absolute; left: 0; top: 0; will-change: transform; }
-.hotspot[hidden] { display: none; }
 .hotspot ::slotted(*) { pointer-events: auto; transition: opacity 0.3s; opacity: var(--max-hotspot-opacity, 1); }
 .hotspot.hide ::slotted(*) { pointer-events: none; opacity: var(--min-hotspot-opacity, 0.25); }
 .progress { position: absolute; left: 0; top: 0; width: 100%; height: var(--progress-bar-height, 5px); pointer-events: none; transition: opacity 0.3s; }
 .progress.gone { opacity: 0; visibility: hidden; transition: opacity 0.3s 0.2s, visibility 0s 0.5s; }
 .bar { width: 100%; height: 100%; background: var(--progress-bar-color, color-mix(in srgb, currentcolor 40%, transparent)); transform-origin: 0 0; transform: scaleX(0); transition: transform 0.09s; }
 .message { position: absolute; inset: auto 0 0 0; margin: 0; padding: 0.6em 1em; font: 14px/1.4 system-ui, sans-serif; color: #fff; background: rgba(110, 10, 10, 0.88); }
-.message[hidden] { display: none; }
 .spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 @media (prefers-reduced-motion: reduce) { .poster, .poster.gone, .progress, .progress.gone, .bar, .hotspot ::slotted(*) { transition: none; } }
 `;
