@@ -412,8 +412,7 @@ function makeClass(): GlanzViewerConstructor {
       }
       canvas.setAttribute('aria-roledescription', '3D model');
       canvas.setAttribute('aria-describedby', 'hint');
-      hint.textContent =
-        'Arrow keys turn it, plus and minus come nearer and go away, Shift and arrow keys move it, 0 returns.';
+      hint.textContent = 'Arrow keys turn it, plus and minus zoom, Shift and arrow keys move it, 0 returns.';
     }
 
     #poster(): void {

@@ -35,7 +35,7 @@ export function packagedDecoders(addresses: DecoderAddresses = {}): GltfDecoders
     } catch (cause) {
       throw new ElementError(
         'element/decoder',
-        `The decoder of this model does not start (${ATTRIBUTE[name]}${address ? `="${String(address)}"` : ''}): ${(cause as Error).message}`,
+        `The decoder does not start (${ATTRIBUTE[name]}${address ? `="${String(address)}"` : ''}): ${(cause as Error).message}`,
         { cause },
       );
     }
