@@ -59,16 +59,7 @@ export class Agglomerator {
    * found, neighbours in the order given are joined instead.
    */
   run(count: number, maxHeight: number): void {
-    if (!this.tryRun(count, maxHeight)) this.#join(count, true);
-  }
-
-  /**
-   * As {@link run}, but joins nothing else where `maxHeight` is too few.
-   *
-   * @returns Whether the tree found has at most `maxHeight` levels of nodes.
-   */
-  tryRun(count: number, maxHeight: number): boolean {
-    return this.#join(count, false) <= maxHeight;
+    if (this.#join(count, false) > maxHeight) this.#join(count, true);
   }
 
   /**

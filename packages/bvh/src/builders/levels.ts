@@ -18,9 +18,8 @@ export interface Items {
 
 /**
  * Builds a tree over items, one item a leaf, without recursion: large ranges are split by surface area heuristic, small
- * ones joined bottom up. The depth is bounded for any input: no side of a split has more items than the levels below it
- * can hold, and a small range whose joined tree would be too high is split as large ones are. Where no plane separates
- * the centres, ranges are halved by count. The boxes of inner children are not set: {@link encloseNodes}.
+ * ones joined bottom up. Where the depth left would not suffice, or no plane separates the centres, ranges are halved
+ * by count, so the depth is bounded for any input. The boxes of inner children are not set: {@link encloseNodes}.
  */
 export class Levels {
   readonly #writer: NodeWriter;
@@ -80,10 +79,20 @@ export class Levels {
       for (let k = 5; k >= 0; k--) centers[k] = tasks.pop() as number;
       const size = end - first;
       left -= size;
-      if (size <= GROUP_MAX && this.#join(first, size, slot, depth)) continue;
+      if (size <= GROUP_MAX) {
+        this.#join(first, size, slot, depth);
+        continue;
+      }
       const [x, y, z, x1, y1, z1] = centers as unknown as [number, number, number, number, number, number];
       if (Math.max(x1 - x, y1 - y, z1 - z) < COARSE) this.#quantise(first, end);
-      splitter.split(this.#words, order, first, end, centers, 2 ** (this.#maxDepth - depth - 1));
+      // Counting the levels that halving by count would need from here.
+      splitter.split(
+        this.#words,
+        order,
+        first,
+        depth + 33 - Math.clz32(size - 1) < this.#maxDepth ? end : first,
+        centers,
+      );
       let { cut } = splitter;
       if (cut < 0) cut = (first + end) >>> 1;
       const base = this.#writer.under(slot) * NODE_WORDS;
@@ -140,8 +149,8 @@ export class Levels {
     }
   }
 
-  /** Writes the tree of a small range, unless it is too high. @returns Whether it was written. */
-  #join(first: number, size: number, slot: number, depth: number): boolean {
+  /** The tree of a small range. */
+  #join(first: number, size: number, slot: number, depth: number): void {
     const group = this.#group,
       writer = this.#writer,
       order = this.#order;
@@ -149,12 +158,11 @@ export class Levels {
     if (size === 1) {
       const item = order[first] as number;
       writer.put(slot, leafReference(item, 1), boxes, 6 * item);
-      return true;
+      return;
     }
     for (let i = 0; i < size; i++) group.load(i, boxes, 6 * (order[first + i] as number));
-    if (!group.tryRun(size, this.#maxDepth - depth)) return false;
+    group.run(size, this.#maxDepth - depth);
     writer.count = group.write(writer, size, slot, (id) => leafReference(order[first + id] as number, 1));
-    return true;
   }
 }
 

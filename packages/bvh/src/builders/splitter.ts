@@ -44,8 +44,6 @@ export class Splitter {
   readonly #bins: number;
   /** For each axis its bins: three words and a weight each. */
   readonly #binned: Int32Array;
-  /** How many centres have each value of a byte. */
-  readonly #counts = new Uint32Array(256);
   readonly #leftCosts: Float64Array;
   readonly #scales = new Int32Array(3);
 
@@ -58,11 +56,10 @@ export class Splitter {
   /**
    * Tries the planes between bins along all three axes (Wald 2007).
    *
-   * @param centers Bounds of the centres of `order[first, end)`, doubled: min xyz, max xyz.
-   * @param maxSide Maximum number of items on a side, at least half of them. Where the best plane leaves more on one,
-   * the cut moves along the same axis until it has this many.
+   * @param centers Bounds of the centres of `order[first, end)`, doubled: min xyz, max xyz. `end` = `first`: none is
+   * found.
    */
-  split(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array, maxSide: number): void {
+  split(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array): void {
     const { sides } = this;
     const scales = this.#scales,
       bins = this.#bins;
@@ -82,10 +79,7 @@ export class Splitter {
       bestAxis = axis;
       bestBin = plane;
     }
-    if (bestAxis < 0) return;
-    this.#partition(items, order, first, end, bestAxis, bestBin, centers[bestAxis] as number);
-    if (this.cut - first > maxSide) this.#select(items, order, first, this.cut, bestAxis, first + maxSide);
-    else if (end - this.cut > maxSide) this.#select(items, order, this.cut, end, bestAxis, end - maxSide);
+    if (bestAxis >= 0) this.#partition(items, order, first, end, bestAxis, bestBin, centers[bestAxis] as number);
   }
 
   #partition(
@@ -121,49 +115,6 @@ export class Splitter {
     this.cut = i;
     sides[3 + axis] = leftMax;
     sides[6 + axis] = rightMin;
-  }
-
-  /**
-   * Cuts at `cut`, by the order of the centres along an axis. The items of `order[first, end)` are reordered; those
-   * before it have lower centres, those behind it higher ones.
-   */
-  #select(items: Int32Array, order: Uint32Array, first: number, end: number, axis: number, cut: number): void {
-    const STEPS = 32767,
-      ITEM_WORDS = 4;
-    const { sides } = this;
-    const counts = this.#counts;
-    const centerOf = (i: number): number => {
-      const word = items[(order[i] as number) * ITEM_WORDS + axis] as number;
-      return (word & STEPS) + STEPS - (word >>> 16);
-    };
-    // Find the centre of the item that comes at `cut`, byte by byte, and how many with the same one come before it.
-    let center = 0,
-      equal = cut - first;
-    for (let shift = 8; shift >= 0; shift -= 8) {
-      counts.fill(0);
-      for (let i = first; i < end; i++) {
-        const c = centerOf(i);
-        if (c >>> (shift + 8) === center) counts[(c >>> shift) & 255]!++;
-      }
-      let byte = 0;
-      for (; equal >= (counts[byte] as number); byte++) equal -= counts[byte] as number;
-      center = 256 * center + byte;
-    }
-    let leftMax = 0;
-    for (let i = first, j = end; i < j;) {
-      const c = centerOf(i);
-      if (c < center || (c === center && equal-- > 0)) {
-        i++;
-        leftMax = Math.max(leftMax, c);
-      } else {
-        const item = order[i] as number;
-        order[i] = order[--j] as number;
-        order[j] = item;
-      }
-    }
-    this.cut = cut;
-    sides[3 + axis] = leftMax;
-    sides[6 + axis] = center;
   }
 
   #fill(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array): void {
