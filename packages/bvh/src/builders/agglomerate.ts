@@ -55,11 +55,16 @@ export class Agglomerator {
 
   /**
    * @param count Items, 1 to {@link GROUP_MAX}.
-   * @param maxHeight Maximum number of levels of nodes; at least ⌈log₂ count⌉. Where that is too few for the tree
-   * found, neighbours in the order given are joined instead.
+   * @param byTwos Whether to join neighbours in the order given, whatever their boxes: ⌈log₂ count⌉ levels.
+   * @returns Levels of nodes.
    */
-  run(count: number, maxHeight: number): void {
-    if (this.#join(count, false) > maxHeight) this.#join(count, true);
+  run(count: number, byTwos = false): number {
+    this.#quantise(count);
+    for (let left = count; left > 1;) {
+      this.#compare(left, byTwos);
+      left = this.#merge(left, 2 * count - left);
+    }
+    return this.#state[142 + 2 * count] as number;
   }
 
   /**
@@ -106,19 +111,6 @@ export class Agglomerator {
       slots[r] = base + RIGHT + 1;
     }
     return next;
-  }
-
-  /**
-   * @param byTwos Whether to join neighbours, whatever their boxes.
-   * @returns Levels of nodes.
-   */
-  #join(count: number, byTwos: boolean): number {
-    this.#quantise(count);
-    for (let left = count; left > 1;) {
-      this.#compare(left, byTwos);
-      left = this.#merge(left, 2 * count - left);
-    }
-    return this.#state[142 + 2 * count] as number;
   }
 
   #quantise(count: number): void {

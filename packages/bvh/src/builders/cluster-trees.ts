@@ -49,7 +49,7 @@ export class ClusterTrees {
         group.load(i, sorted, 6 * (first + i));
         group.weights[i] = names[2 * (first + i) + 1] === none ? 1 : 2;
       }
-      group.run(size, CLUSTER_DEPTH);
+      if (group.run(size) > CLUSTER_DEPTH) group.run(size, true);
       const root = 2 * size - 2;
       if (group.leaf[root] === 1) references[cluster] = this.#leaf(root);
       else {

@@ -16,10 +16,13 @@ export interface Items {
   readonly count: number;
 }
 
+type Task = [number, number, number, number, number, number, first: number, end: number, slot: number, depth: number];
+
 /**
  * Builds a tree over items, one item a leaf, without recursion: large ranges are split by surface area heuristic, small
- * ones joined bottom up. Where the depth left would not suffice, or no plane separates the centres, ranges are halved
- * by count, so the depth is bounded for any input. The boxes of inner children are not set: {@link encloseNodes}.
+ * ones joined bottom up. The depth is bounded for any input: no side of a split has more items than the levels below it
+ * can hold, and a small range whose joined tree would be too high is split as large ones are. Where no plane separates
+ * the centres, ranges are halved by count. The boxes of inner children are not set: {@link encloseNodes}.
  */
 export class Levels {
   readonly #writer: NodeWriter;
@@ -72,29 +75,14 @@ export class Levels {
       centers = this.#centers;
     const { sides } = splitter;
     for (let left = items; tasks.length > 0 && left > 0;) {
-      const depth = tasks.pop() as number,
-        slot = tasks.pop() as number,
-        end = tasks.pop() as number,
-        first = tasks.pop() as number;
-      for (let k = 5; k >= 0; k--) centers[k] = tasks.pop() as number;
+      const [x, y, z, x1, y1, z1, first, end, slot, depth] = tasks.splice(-10) as unknown as Task;
       const size = end - first;
       left -= size;
-      if (size <= GROUP_MAX) {
-        this.#join(first, size, slot, depth);
-        continue;
-      }
-      const [x, y, z, x1, y1, z1] = centers as unknown as [number, number, number, number, number, number];
+      if (size <= GROUP_MAX && this.#join(first, size, slot, depth)) continue;
+      centers.set([x, y, z, x1, y1, z1]);
       if (Math.max(x1 - x, y1 - y, z1 - z) < COARSE) this.#quantise(first, end);
-      // Counting the levels that halving by count would need from here.
-      splitter.split(
-        this.#words,
-        order,
-        first,
-        depth + 33 - Math.clz32(size - 1) < this.#maxDepth ? end : first,
-        centers,
-      );
-      let { cut } = splitter;
-      if (cut < 0) cut = (first + end) >>> 1;
+      splitter.split(this.#words, order, first, end, centers, 2 ** (this.#maxDepth - depth - 1));
+      const { cut } = splitter;
       const base = this.#writer.under(slot) * NODE_WORDS;
       tasks.push(
         ...sides.subarray(6),
@@ -149,8 +137,8 @@ export class Levels {
     }
   }
 
-  /** The tree of a small range. */
-  #join(first: number, size: number, slot: number, depth: number): void {
+  /** Writes the tree of a small range, unless it is too high. @returns Whether it was written. */
+  #join(first: number, size: number, slot: number, depth: number): boolean {
     const group = this.#group,
       writer = this.#writer,
       order = this.#order;
@@ -158,11 +146,12 @@ export class Levels {
     if (size === 1) {
       const item = order[first] as number;
       writer.put(slot, leafReference(item, 1), boxes, 6 * item);
-      return;
+      return true;
     }
     for (let i = 0; i < size; i++) group.load(i, boxes, 6 * (order[first + i] as number));
-    group.run(size, this.#maxDepth - depth);
+    if (group.run(size) > this.#maxDepth - depth) return false;
     writer.count = group.write(writer, size, slot, (id) => leafReference(order[first + id] as number, 1));
+    return true;
   }
 }
 

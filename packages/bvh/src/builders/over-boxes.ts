@@ -9,12 +9,11 @@ import { NodeWriter, type Tree } from './node-writer';
  */
 export function buildOverBoxes(boxes: Float32Array, count: number, maxDepth: number): Tree {
   const writer = new NodeWriter(Math.max(count - 1, 1));
-  if (count < 2) {
-    writer.single(leafReference(0, 1), count === 1 ? boxes : undefined);
-    return writer.finish();
+  if (count < 2) writer.single(leafReference(0, 1), count === 1 ? boxes : undefined);
+  else {
+    const levels = new Levels(writer, { boxes, weights: new Uint32Array(count).fill(1), count }, maxDepth, 16);
+    while (levels.step(count));
+    encloseNodes(writer, 0, writer.count);
   }
-  const levels = new Levels(writer, { boxes, weights: new Uint32Array(count).fill(1), count }, maxDepth, 16);
-  while (levels.step(count));
-  encloseNodes(writer, 0, writer.count);
   return writer.finish();
 }

@@ -34,11 +34,11 @@ function addTo(bins: Int32Array, at: number, a: number, b: number, c: number, we
 
 /**
  * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs: boxes are three words,
- * which are joined without a branch. After `split()`, `cut` is where the range was cut (the order is permuted), or −1
- * if it was not, as no plane separates the centres.
+ * which are joined without a branch. After `split()`, `cut` is where the range was cut (the order is permuted): in
+ * the middle if no plane separates the centres.
  */
 export class Splitter {
-  cut = -1;
+  cut = 0;
   /** Where the centres of both sides lie, doubled: min xyz, max xyz of the left, then of the right. */
   readonly sides = new Int32Array(12);
   readonly #bins: number;
@@ -56,14 +56,15 @@ export class Splitter {
   /**
    * Tries the planes between bins along all three axes (Wald 2007).
    *
-   * @param centers Bounds of the centres of `order[first, end)`, doubled: min xyz, max xyz. `end` = `first`: none is
-   * found.
+   * @param centers Bounds of the centres of `order[first, end)`, doubled: min xyz, max xyz.
+   * @param maxSide Maximum number of items on a side, at least half of them. Where the best plane leaves more on one,
+   * the cut moves along the same axis until it has no more.
    */
-  split(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array): void {
+  split(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array, maxSide: number): void {
     const { sides } = this;
     const scales = this.#scales,
       bins = this.#bins;
-    this.cut = -1;
+    this.cut = (first + end) >>> 1;
     for (let axis = 0; axis < 3; axis++)
       scales[axis] = (bins * 2 ** 24) / ((centers[3 + axis] as number) - (centers[axis] as number) + 1);
     sides.set(centers);
@@ -79,7 +80,28 @@ export class Splitter {
       bestAxis = axis;
       bestBin = plane;
     }
-    if (bestAxis >= 0) this.#partition(items, order, first, end, bestAxis, bestBin, centers[bestAxis] as number);
+    if (bestAxis < 0) return;
+    const minCut = end - maxSide,
+      maxCut = first + maxSide;
+    let low = centers[bestAxis] as number,
+      high = centers[3 + bestAxis] as number;
+    for (let plane = bestBin; ; plane = 1) {
+      this.#partition(items, order, first, end, bestAxis, plane, low);
+      // Where a side is too large, halve the range of its centres until the cut is far enough in it.
+      if (this.cut < minCut) {
+        first = this.cut;
+        low = sides[6 + bestAxis] as number;
+      } else if (this.cut > maxCut) {
+        end = this.cut;
+        high = sides[3 + bestAxis] as number;
+      } else return;
+      if (low === high) {
+        sides[3 + bestAxis] = sides[6 + bestAxis] = low;
+        this.cut = minCut;
+        return;
+      }
+      scales[bestAxis] = 2 ** 25 / (high - low + 1);
+    }
   }
 
   #partition(
