@@ -36,7 +36,7 @@ export interface Blas {
 
 function whole(name: string, value: number, min: number, max: number): void {
   if (!(Number.isInteger(value) && value >= min && value <= max))
-    throw new BvhError('bvh/options', `${name} is ${value}; it must be a whole number from ${min} to ${max}.`);
+    throw new BvhError('bvh/options', `${name} is ${value}, not a whole number from ${min} to ${max}.`);
 }
 
 /**
@@ -67,21 +67,18 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
   whole('bins', bins, 2, 64);
   const build = builder === 'balanced' ? buildBalanced : (builder as TreeBuilder | undefined)?.build;
   if (typeof build !== 'function')
-    throw new BvhError('bvh/options', `builder is ${builder as string}; it must be 'balanced' or imported.`);
+    throw new BvhError('bvh/options', `builder is ${builder as string}, not 'balanced' or imported.`);
   const { positions, indices } = mesh;
-  const fail = (code: string, what: string, values: ArrayLike<number>, per: string) => {
-    throw new BvhError(code, `${what} has ${values.length} entries; it must have ${per}.`);
+  const check = (what: string, { length }: ArrayLike<number>, per: number, code = what) => {
+    if (length % per !== 0)
+      throw new BvhError(`bvh/${code}`, `${what} has ${length} entries, not a multiple of ${per}.`);
   };
-  if (positions.length % 3 !== 0) fail('bvh/positions', 'positions', positions, 'three a vertex');
-  if (indices && indices.length % 3 !== 0) fail('bvh/indices', 'indices', indices, 'three a triangle');
-  if (!indices && positions.length % 9 !== 0)
-    fail('bvh/indices', 'positions', positions, 'nine a triangle without indices');
+  check('positions', positions, 3);
+  if (indices) check('indices', indices, 3);
+  else check('positions', positions, 9, 'indices');
   const count = Math.floor((indices ? indices.length : positions.length / 3) / 3);
   if (count > MAX_PRIMITIVES)
-    throw new BvhError(
-      'bvh/too-many',
-      `${count} triangles are too many; one hierarchy holds ${MAX_PRIMITIVES}: split the mesh.`,
-    );
+    throw new BvhError('bvh/too-many', `${count} triangles: one hierarchy holds ${MAX_PRIMITIVES}, split the mesh.`);
   const { bounds, ...tree } = yield* build(mesh, count, { maxLeaf: maxLeafTriangles, bins });
   return {
     ...tree,

@@ -85,10 +85,7 @@ export class DynamicTlas implements Tlas {
   constructor(instances: readonly (TlasInstance | undefined)[]) {
     const { length } = instances;
     if (length > 2 ** TLAS_MAX_DEPTH)
-      throw new BvhError(
-        'bvh/too-many',
-        `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`,
-      );
+      throw new BvhError('bvh/too-many', `${length} instances: one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
     const capacity = Math.max(length - 1, 1);
     this.instanceOrder = new Uint32Array(length).map((_, i) => i);
     this.toObject = new Float64Array(12 * length).fill(NaN);

@@ -16,10 +16,7 @@ export interface TlasInstance {
  */
 export function checkTransform({ transform }: TlasInstance, index: number): void {
   if (transform.length !== 16)
-    throw new BvhError(
-      'bvh/transform',
-      `Instance ${index} has a transform of ${transform.length} numbers; it must have 16.`,
-    );
+    throw new BvhError('bvh/transform', `Instance ${index} has a transform of ${transform.length} numbers, not 16.`);
 }
 
 /**

@@ -79,14 +79,11 @@ export function deserializeBlases(data: ArrayBuffer | ArrayBufferView, meshes?: 
   if (words[1] !== SERIALIZED_VERSION)
     throw new BvhError(
       'bvh/version',
-      `The hierarchy was written in version ${words[1]} of the format; this package reads ${SERIALIZED_VERSION}: build it again.`,
+      `The hierarchy has version ${words[1]} of the format; this package reads ${SERIALIZED_VERSION}: build it again.`,
     );
   const count = words[2] as number;
   const truncated = () =>
-    new BvhError(
-      'bvh/truncated',
-      `The hierarchy has ${words.length} words, but its header declares another size: it is truncated, build it again.`,
-    );
+    new BvhError('bvh/truncated', `The hierarchy of ${words.length} words is truncated: build it again.`);
   if (words.length < HEADER_WORDS + TREE_WORDS * count) throw truncated();
   let length = HEADER_WORDS + TREE_WORDS * count,
     nodeWords = 0;
@@ -148,10 +145,7 @@ function wordsOf(data: ArrayBuffer | ArrayBufferView): Uint32Array<ArrayBuffer> 
   if (words[0] === swapped(MAGIC)) words = words.map(swapped);
   if (words[0] !== MAGIC) throw other();
   if (whole !== bytes.length || words.length < HEADER_WORDS)
-    throw new BvhError(
-      'bvh/truncated',
-      `The hierarchy has ${bytes.length} bytes, not a multiple of 4: it is truncated, build it again.`,
-    );
+    throw new BvhError('bvh/truncated', `The hierarchy of ${bytes.length} bytes is truncated: build it again.`);
   return words;
 }
 

@@ -31,7 +31,7 @@ export interface Tlas {
 export function buildTlas(instances: readonly TlasInstance[]): Tlas {
   const { length } = instances;
   if (length > 2 ** TLAS_MAX_DEPTH)
-    throw new BvhError('bvh/too-many', `${length} instances are too many; one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
+    throw new BvhError('bvh/too-many', `${length} instances: one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
   const boxes = new Float32Array(length * 6);
   const toObject = new Float64Array(length * 12);
   const kept = new Uint32Array(length);

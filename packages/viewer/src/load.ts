@@ -150,7 +150,7 @@ export async function loadEnvironment(
     if (type === 'latlong' || type === 'constant') return source;
     throw new ViewerError(
       'viewer/environment',
-      `An environment is a name, an address, a file, or data of the type latlong or constant, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
+      `An environment is a name, an address, a file, or latlong or constant data, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
     );
   }
   const { decodeEnvironment } = await import('@glanz/image/environment');

@@ -16,8 +16,6 @@ export interface Items {
   readonly count: number;
 }
 
-type Task = [number, number, number, number, number, number, first: number, end: number, slot: number, depth: number];
-
 /**
  * Builds a tree over items, one item a leaf, without recursion: large ranges are split by surface area heuristic, small
  * ones joined bottom up. The depth is bounded for any input: no side of a split has more items than the levels below it
@@ -73,16 +71,15 @@ export class Levels {
       splitter = this.#splitter,
       order = this.#order,
       centers = this.#centers;
-    const { sides } = splitter;
     for (let left = items; tasks.length > 0 && left > 0;) {
-      const [x, y, z, x1, y1, z1, first, end, slot, depth] = tasks.splice(-10) as unknown as Task;
+      centers.set(tasks.splice(-10, 6));
+      const [first, end, slot, depth] = tasks.splice(-4) as [number, number, number, number];
       const size = end - first;
       left -= size;
       if (size <= GROUP_MAX && this.#join(first, size, slot, depth)) continue;
-      centers.set([x, y, z, x1, y1, z1]);
-      if (Math.max(x1 - x, y1 - y, z1 - z) < COARSE) this.#quantise(first, end);
+      if (centers.subarray(3).every((high, k) => high - (centers[k] as number) < COARSE)) this.#quantise(first, end);
       splitter.split(this.#words, order, first, end, centers, 2 ** (this.#maxDepth - depth - 1));
-      const { cut } = splitter;
+      const { cut, sides } = splitter;
       const base = this.#writer.under(slot) * NODE_WORDS;
       tasks.push(
         ...sides.subarray(6),
@@ -140,9 +137,9 @@ export class Levels {
   /** Writes the tree of a small range, unless it is too high. @returns Whether it was written. */
   #join(first: number, size: number, slot: number, depth: number): boolean {
     const group = this.#group,
-      writer = this.#writer,
       order = this.#order;
     const { boxes } = this.#items;
+    const writer = this.#writer;
     if (size === 1) {
       const item = order[first] as number;
       writer.put(slot, leafReference(item, 1), boxes, 6 * item);

@@ -11,8 +11,7 @@ export function buildOverBoxes(boxes: Float32Array, count: number, maxDepth: num
   const writer = new NodeWriter(Math.max(count - 1, 1));
   if (count < 2) writer.single(leafReference(0, 1), count === 1 ? boxes : undefined);
   else {
-    const levels = new Levels(writer, { boxes, weights: new Uint32Array(count).fill(1), count }, maxDepth, 16);
-    while (levels.step(count));
+    new Levels(writer, { boxes, weights: new Uint32Array(count).fill(1), count }, maxDepth, 16).step(Infinity);
     encloseNodes(writer, 0, writer.count);
   }
   return writer.finish();

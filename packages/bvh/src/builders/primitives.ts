@@ -109,10 +109,7 @@ export class PrimitiveMaker implements Primitives {
         b = indices[b] as number;
         c = indices[c] as number;
         if (a >= limit || b >= limit || c >= limit)
-          throw new BvhError(
-            'bvh/indices',
-            `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}; it must be below.`,
-          );
+          throw new BvhError('bvh/indices', `Triangle ${i} uses vertex ${Math.max(a, b, c)} of ${limit}.`);
       }
       a *= 3;
       b *= 3;

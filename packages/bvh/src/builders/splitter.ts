@@ -85,8 +85,8 @@ export class Splitter {
       maxCut = first + maxSide;
     let low = centers[bestAxis] as number,
       high = centers[3 + bestAxis] as number;
-    for (let plane = bestBin; ; plane = 1) {
-      this.#partition(items, order, first, end, bestAxis, plane, low);
+    for (;;) {
+      this.#partition(items, order, first, end, bestAxis, bestBin, low);
       // Where a side is too large, halve the range of its centres until the cut is far enough in it.
       if (this.cut < minCut) {
         first = this.cut;
@@ -100,6 +100,7 @@ export class Splitter {
         this.cut = minCut;
         return;
       }
+      bestBin = 1;
       scales[bestAxis] = 2 ** 25 / (high - low + 1);
     }
   }
