@@ -69,13 +69,12 @@ export function* blasSteps(mesh: TriangleMesh, options: BlasOptions = {}): Gener
   if (typeof build !== 'function')
     throw new BvhError('bvh/options', `builder is ${builder as string}, not 'balanced' or imported.`);
   const { positions, indices } = mesh;
-  const check = (what: string, { length }: ArrayLike<number>, per: number, code = what) => {
-    if (length % per !== 0)
-      throw new BvhError(`bvh/${code}`, `${what} has ${length} entries, not a multiple of ${per}.`);
+  const check = (code: string, what: string, { length }: ArrayLike<number>, per: number) => {
+    if (length % per !== 0) throw new BvhError(code, `${what} has ${length} entries, not a multiple of ${per}.`);
   };
-  check('positions', positions, 3);
-  if (indices) check('indices', indices, 3);
-  else check('positions', positions, 9, 'indices');
+  check('bvh/positions', 'positions', positions, 3);
+  if (indices) check('bvh/indices', 'indices', indices, 3);
+  else check('bvh/indices', 'positions', positions, 9);
   const count = Math.floor((indices ? indices.length : positions.length / 3) / 3);
   if (count > MAX_PRIMITIVES)
     throw new BvhError('bvh/too-many', `${count} triangles: one hierarchy holds ${MAX_PRIMITIVES}, split the mesh.`);

@@ -67,7 +67,7 @@ export function checkInteriors({ materials }: Scene): void {
   if (last >= MAX_INTERIORS)
     throw new DeviceError(
       'renderer/limit',
-      `Material ${last} ("${materials[last]?.name}") lets light into its inside; only the first ${MAX_INTERIORS} materials of a scene may: move it up, or give it geometry_thin_walled.`,
+      `Material ${last} ("${materials[last]?.name}") lets light into its inside; only the first ${MAX_INTERIORS} materials may: move it up, or give it geometry_thin_walled.`,
     );
 }
 

@@ -142,7 +142,7 @@ export async function loadEnvironment(
     if (!bytes)
       throw new ViewerError(
         'viewer/environment',
-        `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server allows this page to read it.`,
+        `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server lets this page read it.`,
       );
   } else if (source instanceof Blob) bytes = await bytesOf(source);
   else {
@@ -206,7 +206,7 @@ async function readOther(
   if (!bytes)
     throw new ViewerError(
       'viewer/no-model',
-      `The model "${name}" could not be fetched: check the address, and that its server allows this page to read it.`,
+      `The model "${name}" could not be fetched: check the address, and that its server lets this page read it.`,
     );
   const { readObj, readStl } = await import('@glanz/formats');
   if (/\.stl$/i.test(name)) return readStl(bytes, { name });

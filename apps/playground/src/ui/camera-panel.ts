@@ -102,7 +102,7 @@ export function cameraPanel(context: Context): HTMLElement[] {
     range: [0.01, 10],
     hardRange: [0.001, 100000],
     curve: 3,
-    hint: 'Distance of the plane in focus; D and a click on the image measure it',
+    hint: 'Distance in focus; D and a click on the image measure it',
     onInput: (value) => lensed({ focus: value }, 'Focus'),
   });
   const auto = element('button', { type: 'button', id: 'focus-auto' }, 'Focus on the target');

@@ -13,7 +13,7 @@ export function lightGroups({ store, session, onStatus }: Context): HTMLElement 
     id: 'relight',
     label: 'Relight',
     value: store.state.relight,
-    hint: 'Keeps the light of each source apart, so that it can be dimmed and coloured without a new sample. Costs 32 bytes a pixel and source.',
+    hint: 'Keeps the light of each source apart, to dim and colour it without a new sample. Costs 32 bytes a pixel and source.',
     onInput: (relight) => store.set({ relight }, { label: 'Relight' }),
   });
   let shown = '';

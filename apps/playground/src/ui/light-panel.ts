@@ -143,7 +143,7 @@ export function lightPanel(context: Context): HTMLElement[] {
     id: 'floor',
     label: 'Floor shadow',
     value: initial.floor,
-    hint: 'An invisible floor under the model that shows shadows and reflected light only',
+    hint: 'An invisible floor that shows shadows and reflected light only',
     onInput: change('floor', 'Floor shadow'),
   });
   watch(store, ['background', 'backgroundColor', 'backgroundBlur', 'floor'], (state) => {

@@ -51,7 +51,7 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
   if (!gpu) {
     throw new DeviceError(
       'renderer/no-webgpu',
-      'WebGPU is not available here: use a current Chrome, Edge, Firefox or Safari over https, or in Node pass { gpu: (await createGpu()).gpu } from @glanz/renderer/node.',
+      'WebGPU is not available here: use a current Chrome, Edge, Firefox or Safari over https; in Node pass the gpu of createGpu() from @glanz/renderer/node.',
     );
   }
   const adapter = await gpu.requestAdapter({ powerPreference: options.powerPreference ?? 'high-performance' });

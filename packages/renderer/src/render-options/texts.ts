@@ -22,20 +22,20 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     softRange: [1, 4096],
   },
   noise: {
-    doc: 'Samples only where there is noise, until the standard error relative to the brightness is everywhere at most this: 0.05 is a preview, 0.01 is hardly visible. 0: no target.',
+    doc: 'Samples only where there is noise, until the relative standard error is everywhere at most this: 0.05 is a preview, 0.01 hardly visible. 0: no target.',
     softRange: [0, 0.1],
   },
-  maxSubmitMs: { doc: 'GPU time that one submission should take at most.', unit: 'ms', softRange: [1, 100] },
+  maxSubmitMs: { doc: 'GPU time of one submission at most.', unit: 'ms', softRange: [1, 100] },
   maxDepth: {
     doc: 'Maximum number of edges of a path from the camera to a light: 1 shows only emitters, 2 adds direct light.',
     softRange: [1, 16],
   },
   maxVolumeDepth: {
-    doc: 'Maximum number of scattering events of a path inside of media such as subsurface or milky glass.',
+    doc: 'Maximum number of scattering events of a path in media such as subsurface or milky glass.',
     softRange: [0, 1024],
   },
   seed: {
-    doc: 'Selects the random numbers: the same seed gives the same image on the same device.',
+    doc: 'The same seed gives the same image on the same device.',
     softRange: [0, 100],
   },
   background: { doc: 'What is visible behind the scene: the environment, or nothing (alpha is the coverage).' },
@@ -48,14 +48,14 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
   },
   aovs: { doc: 'First-hit layers that stay on the GPU, such as the guides of a denoiser: means over 64 samples.' },
   backFaceCulling: {
-    doc: 'Leaves out faces that show the camera their back and are not double-sided: for the camera only, while light still meets them, or for all rays.',
+    doc: 'Leaves out single-sided faces that show the camera their back: for the camera only, or for all rays.',
   },
   maxBounces: {
     doc: 'Maximum number of bounces of each kind. What is not listed is not limited.',
     biased: true,
   },
   regularization: {
-    doc: 'Widens sharp lobes of paths that have already bounced off rough surfaces: 0 is off, 0.25 removes most fireflies of caustics.',
+    doc: 'Widens sharp lobes after bounces off rough surfaces: 0 is off, 0.25 removes most fireflies of caustics.',
     biased: true,
   },
   clampIndirect: {
@@ -68,18 +68,18 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     biased: true,
   },
   multipleScattering: {
-    doc: 'Compensation of the energy that single-scattering microfacet models lose. Off only for comparisons with such models.',
+    doc: 'Compensates the energy that single-scattering microfacet models lose. Off only for comparisons.',
   },
   sampler: { doc: 'Source of the random numbers. All are unbiased; `independent` converges slower.' },
   lightSampling: {
-    doc: 'How lights are chosen: by their contribution at the shaded point (a light tree), or by power alone.',
+    doc: 'Lights are chosen by their contribution at the shaded point (a light tree), or by power alone.',
   },
   shadowTerminator: {
     doc: 'Where smooth normals and triangles disagree: light follows the smooth surface, or the triangles.',
   },
   textureLodBias: { doc: 'Added to the level of detail of textures; lower is sharper.', softRange: [-4, 4] },
   pathsInFlight: {
-    doc: 'Maximum number of paths on the GPU at once, about 150 bytes each. Default: 4194304, or 1048576 on devices without buffers of 2 GiB.',
+    doc: 'Maximum number of paths on the GPU at once, about 150 bytes each. Default: 4194304, or 1048576 without buffers of 2 GiB.',
     softRange: [4096, 4_194_304],
   },
 };

@@ -4,6 +4,7 @@ import type { GroupWeights } from '../film/layers';
 import { forBands } from '../integrator/bands';
 import type { Integrator } from '../integrator/integrator';
 import type { KernelCache } from '../integrator/kernel-cache';
+import type { Kernel } from '../integrator/pipelines';
 import { TileGrid } from '../schedule/adaptive';
 import { headEnd, headSamples } from '../schedule/sample-range';
 import type { GpuMemory } from '../storage/buffers';
@@ -68,42 +69,44 @@ export class FilmReader {
 
   /** See `PathTracer.varianceBuffer`. */
   async varianceBuffer(): Promise<GPUBuffer> {
-    const { cache, cleared, integrator, memory, check, film: current, first } = this.#host;
-    const kernel = await cache.kernel('variance', integrator.kernels.features);
+    const { cleared, integrator, memory, first } = this.#host;
     await cleared();
     // The kernel knows nothing of the samples that a first chunk lacks.
     const layer = headSamples(first()) > 0 ? await this.variance() : undefined;
-    check();
-    const film = current();
-    await this.#guarded("the film's variance", 'film_variance', () => {
-      if (layer?.length === 4 * film.pixels) memory.write(this.#buffer('film_variance'), layer);
-      else forBands(film.pixels, (batch) => integrator.submitPixels('variance', kernel, batch));
+    return this.#measure('variance', (kernel, { pixels }) => {
+      if (layer?.length === 4 * pixels) memory.write(this.#buffer('film_variance'), layer);
+      else forBands(pixels, (batch) => integrator.submitPixels('variance', kernel, batch));
     });
-    return this.#buffer('film_variance');
   }
 
   /** Sums over tiles, see `noiseMap`. */
   async measureNoise(): Promise<Float32Array> {
-    const { cache, device, integrator, check, film, writeFrame } = this.#host;
-    const kernel = await cache.kernel('noise', integrator.kernels.features);
-    check();
-    const { columns, rows } = new TileGrid(film().width, film().height);
-    await this.#guarded("measuring the film's noise", 'film_noise', () => {
+    const { device, integrator, writeFrame } = this.#host;
+    let size = 0;
+    const sums = await this.#measure('noise', (kernel, { width, height }) => {
+      const { columns, rows } = new TileGrid(width, height);
+      size = 16 * columns * rows;
       writeFrame();
       integrator.submitTiles(kernel, columns, rows);
     });
-    return readFloats(device, this.#buffer('film_noise'), 16 * columns * rows);
+    return readFloats(device, sums, size);
   }
 
   /** Runs a kernel whose result is made when it is first bound; frees that where the GPU refuses it. */
-  async #guarded(what: string, result: string, submit: () => void): Promise<void> {
+  async #measure(name: 'variance' | 'noise', submit: (kernel: Kernel, film: Film) => void): Promise<GPUBuffer> {
+    const { cache, check, device, film: current, integrator, refused } = this.#host;
+    const kernel = await cache.kernel(name, integrator.kernels.features);
+    check();
+    const film = current();
+    const result = `film_${name}`;
     try {
-      await withErrorScopes(this.#host.device, what, submit);
+      await withErrorScopes(device, `the film's ${name}`, () => submit(kernel, film));
     } catch (error) {
-      this.#host.film().release(result);
-      this.#host.refused();
+      film.release(result);
+      refused();
       throw error;
     }
+    return film.buffer(result) as GPUBuffer;
   }
 
   #buffer(name: string): GPUBuffer {

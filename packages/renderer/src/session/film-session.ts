@@ -74,11 +74,15 @@ export class FilmSession {
     this.#host = host;
     this.#film = film;
     this.groups = new GroupSettings(host.groupNames);
-    this.aovs = new AovRecorder({
-      device: host.device,
-      integrator: host.integrator,
+    const shared = {
+      ...host,
       film: () => this.#film,
       first: () => this.#first,
+      writeFrame: () => this.#writeFrame(),
+      refused: () => this.#refused(),
+    };
+    this.aovs = new AovRecorder({
+      ...shared,
       samples: () => this.samples,
       generation: () => this.#generation,
       ready: async () => {
@@ -86,19 +90,13 @@ export class FilmSession {
         await host.ready();
         host.check();
       },
-      writeFrame: () => this.#writeFrame(),
-      refused: () => this.#refused(),
     });
     this.reader = new FilmReader({
-      ...host,
-      film: () => this.#film,
-      first: () => this.#first,
+      ...shared,
       next: () => this.#sampling?.state.sample ?? 0,
       firstWeights: () => this.#firstWeights,
       headCopied: () => this.#headCopied,
       cleared: () => this.#cleared,
-      writeFrame: () => this.#writeFrame(),
-      refused: () => this.#refused(),
     });
   }
 
