@@ -102,6 +102,24 @@ export async function tryBuffers(
   return undefined;
 }
 
+/** Copies an image of four floats a pixel to the CPU. */
+export async function readImage(
+  device: GPUDevice,
+  { buffer, width, height }: { readonly buffer: GPUBuffer; readonly width: number; readonly height: number },
+): Promise<Float32Array<ArrayBuffer>> {
+  const size = 16 * width * height;
+  const staging = device.createBuffer({ label: 'denoise read', size, usage: MAP_READ | COPY_DST });
+  const encoder = device.createCommandEncoder({ label: 'denoise read' });
+  encoder.copyBufferToBuffer(buffer, 0, staging, 0, size);
+  device.queue.submit([encoder.finish()]);
+  try {
+    await staging.mapAsync(MAP_READ);
+    return new Float32Array(staging.getMappedRange().slice(0));
+  } finally {
+    staging.destroy();
+  }
+}
+
 /** A buffer with this content. */
 export function filledBuffer(device: GPUDevice, label: string, data: ArrayBuffer, usage: number): GPUBuffer {
   const buffer = device.createBuffer({ label, size: Math.ceil(data.byteLength / 16) * 16, usage: usage | COPY_DST });

@@ -1,3 +1,4 @@
+import { BVH_GPU_FEW_TILES } from './constants.wesl';
 import { COPY_DST, UNIFORM, type Kernel, type PassClock } from './device';
 import type { CommonKernels, SortKernels } from './kernels';
 import type { BuildPlan, ScratchName } from './plan';
@@ -5,8 +6,6 @@ import type { BuildPlan, ScratchName } from './plan';
 /** Bytes from one set of numbers to the next, as offsets of bindings must be aligned. */
 const PARAMS_STRIDE = 256;
 const PARAMS_BYTES = 48;
-/** Up to so many tiles, one workgroup adds up the digits of all. */
-const FEW_TILES = 16;
 
 /** Numbers of a dispatch, see `BvhGpuParams`. */
 export interface Params {
@@ -57,7 +56,7 @@ export function sortPass(
   const { tiles } = params;
   return [
     { kernel: kernels.histogram, params, buffers: { 1: globals, 2: from[0], 3: digits }, workgroups: tiles },
-    { kernel: kernels.scan, params, buffers: { 1: digits }, workgroups: tiles <= FEW_TILES ? 1 : 256 },
+    { kernel: kernels.scan, params, buffers: { 1: digits }, workgroups: tiles <= BVH_GPU_FEW_TILES ? 1 : 256 },
     {
       kernel: kernels.scatter,
       params,

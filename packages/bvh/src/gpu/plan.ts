@@ -1,15 +1,13 @@
 import { BvhError } from '../error';
 import { MAX_PRIMITIVES } from '../layout';
+import {
+  BVH_GPU_BLOCK as BLOCK,
+  BVH_GPU_BLOCK_DRAFTS as BLOCK_DRAFTS,
+  BVH_GPU_KEPT as KEPT,
+  BVH_GPU_ROOT_WORDS as ROOT_WORDS,
+  BVH_GPU_TILE as TILE,
+} from './constants.wesl';
 
-/** Clusters of a block, which are the primitives of one at the lowest level. */
-const BLOCK = 256;
-/** Clusters that a block leaves at most to the next level, where four blocks are one. */
-const KEPT = 64;
-const BLOCK_DRAFTS = 224;
-/** Keys of a tile of the sort. */
-const TILE = 4096;
-/** Words of the record of the root. */
-const ROOT_WORDS = 16;
 /** Bytes of the words that kernels share. */
 export const GLOBALS_BYTES = 128;
 

@@ -1,6 +1,6 @@
 import { Denoiser } from '../denoiser';
 import { DenoiseError } from '../error';
-import { COPY_DST, COPY_SRC, MAP_READ, STORAGE, UNIFORM, bindGroup, tryBuffers, type Kernel } from '../gpu';
+import { COPY_DST, COPY_SRC, STORAGE, UNIFORM, bindGroup, readImage, tryBuffers, type Kernel } from '../gpu';
 import { checkSize } from '../images';
 import { BLEND_TILE } from './blend_constants.wesl';
 import { compileFilmKernels, type FilmKernels } from './kernels';
@@ -130,19 +130,9 @@ export class FilmDenoiser {
    *
    * @throws {DenoiseError} `denoise/destroyed`.
    */
-  async read({ buffer, width, height }: DenoisedFilm): Promise<Float32Array<ArrayBuffer>> {
+  async read(image: DenoisedFilm): Promise<Float32Array<ArrayBuffer>> {
     this.#expectAlive();
-    const size = 16 * width * height;
-    const staging = this.#device.createBuffer({ label: 'denoise read', size, usage: MAP_READ | COPY_DST });
-    const encoder = this.#device.createCommandEncoder({ label: 'denoise read' });
-    encoder.copyBufferToBuffer(buffer, 0, staging, 0, size);
-    this.#device.queue.submit([encoder.finish()]);
-    try {
-      await staging.mapAsync(1);
-      return new Float32Array(staging.getMappedRange().slice(0));
-    } finally {
-      staging.destroy();
-    }
+    return readImage(this.#device, image);
   }
 
   /** Frees everything on the GPU; work that is under way ends with `denoise/destroyed`. */

@@ -75,7 +75,7 @@ describe('variance', () => {
     ['from sample 5', 5],
   ] as const)('on the GPU: the layer that is read, %s', async (_, firstSample) => {
     const scene = noisy();
-    scene.lights.push({ type: 'point', name: 'lamp', color: [1, 1, 1], intensity: 2, position: [0.3, 1, 0.2] });
+    scene.lights.push({ type: 'point', name: 'point', color: [1, 1, 1], intensity: 2, position: [0.3, 1, 0.2] });
     const tracer = await PathTracer.create(device, scene, {
       width: 12,
       height: 8,
