@@ -176,6 +176,30 @@ describe('TemporalFilter', () => {
     expect(spread(image, 0.5)).toBeLessThan(1e-6);
   });
 
+  it('keeps the history of surfaces that face anywhere', async () => {
+    const normals = [
+      [0, 1, 0],
+      [0, -1, 0],
+      [1, 0, 0],
+      [-1, 0, 0],
+      [0, 0, -1],
+      [0.6, 0, 0.8],
+      [0.6, -1e-5, 0.8],
+      [-0.6, 1e-5, -0.8],
+      [0.6, -3e-3, 0.8],
+    ] as const;
+    // Each column faces elsewhere.
+    const scene = (x: number, y: number) => ({ ...wall(x, y), normal: normals[x % normals.length]! });
+    const { image } = await run(
+      [
+        { scene, step: 'cuts', color: () => 1 },
+        { scene, step: 'moves', color: () => 0 },
+      ],
+      MEAN_ALONE,
+    );
+    for (let x = 0; x < WIDTH; x++) expect(red(image, x, 12), String(normals[x % normals.length])).toBeCloseTo(0.5, 5);
+  });
+
   it('keeps the history of an instance that has moved off its plane, where it is said that instances have', async () => {
     const near = (x: number, y: number) => ({ ...wall(x, y), position: [0.01 * x, -0.01 * y, -1.8] as const });
     const shots = (instancesMoved: boolean): Shot[] => [
@@ -241,6 +265,13 @@ describe('TemporalFilter', () => {
     // Over frames it becomes less still.
     const frames = Array.from({ length: 8 }, () => ({ scene: corner, step: 'moves' as const, noise: 0.3 }));
     expect(error((await run(frames)).image)).toBeLessThan(0.03);
+  });
+
+  it('filters in space as long as the history leaves noise', async () => {
+    const frames = Array.from({ length: 40 }, () => ({ scene: wall, step: 'moves' as const, noise: 0.5 }));
+    const options = { antialias: false, maxHistory: 2 };
+    const [both, mean] = [await run(frames, options), await run(frames, { ...options, passes: 0 })];
+    expect(spread(both.image, 0.5) / spread(mean.image, 0.5)).toBeLessThan(0.08);
   });
 
   it('changes nothing where there is no noise', async () => {
