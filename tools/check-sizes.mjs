@@ -10,7 +10,7 @@ import { installPacked } from './pipeline/packed.mjs';
 import { Verdicts, columns, runAlone } from './pipeline/report.mjs';
 import { root } from './pipeline/process.mjs';
 import { compareSizeTexts } from './pipeline/size-texts.mjs';
-import { entriesOf } from './pipeline/workspace.mjs';
+import { NODE_PACKAGES, entriesOf } from './pipeline/workspace.mjs';
 
 /**
  * Budgets in kB (1000 bytes), min+gz: of the package's own code, or with all its dependencies (`withDependencies`). The
@@ -43,7 +43,7 @@ export async function checkSizes({ write = process.argv.includes('--write') } = 
   const consumer = await installPacked();
   const rows = [];
   const measured = new Map();
-  for (const p of consumer.packages.filter(({ short }) => short !== 'cli')) {
+  for (const p of consumer.packages.filter(({ short }) => !NODE_PACKAGES.includes(short))) {
     const foreign = Object.keys(p.manifest.dependencies ?? {}).flatMap((name) => [name, `${name}/*`]);
     for (const { path, specifier } of entriesOf(p)) {
       if (path === './node') continue;
@@ -92,7 +92,7 @@ export async function checkSizes({ write = process.argv.includes('--write') } = 
     );
   const texts = compareSizeTexts(
     measured,
-    consumer.packages.map(({ short }) => short).filter((short) => short !== 'cli'),
+    consumer.packages.map(({ short }) => short).filter((short) => !NODE_PACKAGES.includes(short)),
     { base: root, write },
   );
   verdicts.expect(texts.length === 0, texts.join('\n'));

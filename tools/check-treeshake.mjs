@@ -5,7 +5,7 @@
 import { PEERS, bundle } from './pipeline/bundle.mjs';
 import { installPacked } from './pipeline/packed.mjs';
 import { Verdicts, columns, runAlone } from './pipeline/report.mjs';
-import { entriesOf } from './pipeline/workspace.mjs';
+import { NODE_PACKAGES, entriesOf } from './pipeline/workspace.mjs';
 
 /**
  * One symbol per line: what its bundle must hold (else the test would prove nothing) and what it must not, though the
@@ -67,7 +67,7 @@ export async function checkTreeShaking() {
   const consumer = await installPacked();
   const rows = [];
   for (const p of consumer.packages) {
-    if (p.short === 'cli') continue;
+    if (NODE_PACKAGES.includes(p.short)) continue;
     for (const { path, specifier, conditions } of entriesOf(p)) {
       // One that is there for its effect must keep it.
       if (p.manifest.sideEffects?.includes?.(conditions.default)) {

@@ -3,7 +3,7 @@ import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { builtinModules } from 'node:module';
 import { dirname, join, relative, sep } from 'node:path';
 import ts from 'typescript';
-import { entriesOf } from './workspace.mjs';
+import { NODE_PACKAGES, entriesOf } from './workspace.mjs';
 
 /**
  * What one package may import.
@@ -198,9 +198,9 @@ function findFolderCycle(src, graph) {
     .join(', ');
 }
 
-/** Files that may use Node: the thin edge of a library, and the command line as a whole. */
+/** Files that may use Node: the thin edge of a library, and packages that are for Node as a whole. */
 const isNodeFile = (p, file) =>
-  p.short === 'cli' || /^src[\\/](node\.ts$|node[\\/]|.*\.node\.ts$)/.test(relative(p.dir, file));
+  NODE_PACKAGES.includes(p.short) || /^src[\\/](node\.ts$|node[\\/]|.*\.node\.ts$)/.test(relative(p.dir, file));
 
 /**
  * Checks one package.

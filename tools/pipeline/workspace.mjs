@@ -21,6 +21,9 @@ export function listPackages(group, base = root) {
     });
 }
 
+/** Packages that run in Node alone, as a whole. */
+export const NODE_PACKAGES = ['cli', 'farm'];
+
 /** The packages that are published. */
 export const publishedPackages = (base = root) =>
   listPackages('packages', base).filter(({ manifest }) => !manifest.private);

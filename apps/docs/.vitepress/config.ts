@@ -31,6 +31,7 @@ const packages = [
   'image',
   'denoise-weights',
   'wgsl',
+  'farm',
   'cli',
 ];
 const api = await apiReference(packages);

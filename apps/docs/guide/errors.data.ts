@@ -7,7 +7,7 @@ import { errorClasses, type ErrorClass } from '../src/error-classes';
 declare const data: ErrorClass[];
 export { data };
 
-const ORDER = ['renderer', 'gltf', 'scene', 'image', 'tonemap', 'denoise', 'openpbr', 'bvh', 'wgsl', 'cli'];
+const ORDER = ['renderer', 'gltf', 'scene', 'image', 'tonemap', 'denoise', 'openpbr', 'bvh', 'wgsl', 'farm', 'cli'];
 
 export default defineLoader({
   watch: ['../../../packages/*/src/**/*.ts'],

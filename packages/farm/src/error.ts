@@ -1,0 +1,8 @@
+import { GlanzError } from '@glanz/wgsl/error';
+
+/**
+ * Thrown by the farm. Codes: `farm/missing-package` (an optional package is needed), `farm/redis` (the queue cannot be
+ * reached), `farm/store` (a file of the store is missing or damaged, or cannot be written), `farm/renderer` (a
+ * renderer's process ended or answers no more), `farm/option` (an option has an impossible value).
+ */
+export class FarmError extends GlanzError {}

@@ -1,0 +1,28 @@
+export { FarmError } from './error';
+export { canonicalJson, contentId } from './identity';
+export type { Destination, FarmJob, FarmJobKind, FarmRequest, JobResult, ResultFile } from './job';
+export { FolderStore, type BundleFile } from './store/folder-store';
+export { FarmQueue, openFarmQueue, type DeadLetter, type FarmQueueOptions, type Submission } from './queue/farm-queue';
+export type { QueueKeys } from './queue/keys';
+export {
+  importQueueModules,
+  type BullQueue,
+  type BullWorker,
+  type QueuedJob,
+  type QueueModules,
+  type RedisClient,
+} from './queue/redis';
+export type { FarmStatus, WorkerState } from './queue/status';
+export { FarmWorker, startFarmWorker, type FarmWorkerOptions, type WorkerEvent } from './worker/farm-worker';
+export { MAX_TRIES, pauseAfter, verdictOn, type Tries, type Verdict } from './worker/failure-policy';
+export {
+  RendererProcess,
+  RenderFailure,
+  type FromRenderer,
+  type RenderEnd,
+  type RendererFailure,
+  type RendererProcessOptions,
+  type ToRenderer,
+} from './worker/renderer-process';
+export { serveRenderer, type JobRenderer } from './worker/serve-renderer';
+export { farmMetrics } from './metrics';

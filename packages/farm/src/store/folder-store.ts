@@ -1,0 +1,223 @@
+import { createHash, randomBytes } from 'node:crypto';
+import { mkdir, readFile, readdir, rename, rm, stat } from 'node:fs/promises';
+import { join, resolve } from 'node:path';
+import { FarmError } from '../error';
+import type { Destination, JobResult } from '../job';
+import { copyWhole, hashFile, partialOf, writeWhole } from './files';
+import { liesBelow } from './lies-below';
+
+/** A file of a bundle: its name within the bundle, and where its bytes are. */
+export interface BundleFile {
+  /** With slashes, without `..`. */
+  readonly name: string;
+  readonly path: string;
+}
+
+const ID = /^[0-9a-f]{40,64}$/;
+const DAY_MS = 86_400_000;
+
+/** Refuses what is no identity, so that no id of a queue leads out of the store. */
+function checked(id: string): string {
+  if (!ID.test(id)) throw new FarmError('farm/store', `"${id}" is not the identity of anything in the store.`);
+  return id;
+}
+
+const isName = (name: string) =>
+  name !== '' && !name.startsWith('/') && !/[\\\0:]/.test(name) && !name.split('/').some((p) => p === '..' || p === '');
+
+/**
+ * Content by its SHA-256, bundles of files, results and checkpoints of jobs, in a folder that all machines see.
+ *
+ * | folder | holds |
+ * |---|---|
+ * | `objects` | content, under its SHA-256 |
+ * | `bundles` | models with their files, as renderers read them, made from objects when they are first needed |
+ * | `results` | a folder for each finished job: its files and `result.json` |
+ * | `working` | files of jobs that are being rendered |
+ * | `checkpoints` | films of jobs that were given back |
+ * | `batches` | what was submitted, a line of JSON for each image |
+ *
+ * A result appears as a whole, by the renaming of its folder, and stays: of two workers that finish the same job, the
+ * second one's files are dropped.
+ */
+export class FolderStore {
+  /** Absolute. */
+  readonly folder: string;
+
+  constructor(folder: string) {
+    this.folder = resolve(folder);
+  }
+
+  /** Where the content with a hash is. */
+  objectPath(hash: string): string {
+    return join(this.folder, 'objects', checked(hash).slice(0, 2), hash);
+  }
+
+  /** Keeps bytes. Gives their SHA-256. */
+  async put(content: Uint8Array | string): Promise<string> {
+    const hash = createHash('sha256').update(content).digest('hex');
+    const file = this.objectPath(hash);
+    if (!(await exists(file))) await writeWhole(file, content);
+    return hash;
+  }
+
+  /** Keeps a copy of a file. Gives its SHA-256. */
+  async putFile(path: string): Promise<string> {
+    const hash = await hashFile(path);
+    const file = this.objectPath(hash);
+    if (!(await exists(file))) {
+      await copyWhole(path, file);
+      // It may have been written to while it was copied.
+      if ((await hashFile(file)) !== hash) {
+        await rm(file, { force: true });
+        throw new FarmError('farm/store', `"${path}" changed while it was copied into the store.`);
+      }
+    }
+    return hash;
+  }
+
+  /** The bytes of content. @throws {FarmError} `farm/store` if they are not there, or are others */
+  async read(hash: string): Promise<Buffer> {
+    const file = this.objectPath(hash);
+    const bytes = await readFile(file).catch((cause: Error) => {
+      throw new FarmError('farm/store', `The store has no object ${hash}: ${cause.message}.`, { cause });
+    });
+    if (createHash('sha256').update(bytes).digest('hex') !== hash)
+      throw new FarmError('farm/store', `The object ${hash} is damaged: delete "${file}" and submit again.`);
+    return bytes;
+  }
+
+  /** Keeps files that belong together. Gives the bundle's hash, which depends on names and contents alone. */
+  async putBundle(files: readonly BundleFile[]): Promise<string> {
+    const list: [string, string][] = [];
+    for (const { name, path } of files) {
+      if (!isName(name)) throw new FarmError('farm/store', `"${name}" cannot be the name of a file in a bundle.`);
+      list.push([name, await this.putFile(path)]);
+    }
+    return this.put(JSON.stringify(list.sort(([a], [b]) => (a < b ? -1 : 1))));
+  }
+
+  /** A folder with the files of a bundle. They are not to be changed. */
+  async bundle(hash: string): Promise<string> {
+    const folder = join(this.folder, 'bundles', checked(hash));
+    if (await exists(folder)) return folder;
+    const list = JSON.parse((await this.read(hash)).toString()) as [string, string][];
+    const partial = partialOf(folder);
+    await mkdir(partial, { recursive: true });
+    try {
+      for (const [name, object] of list) {
+        if (!isName(name)) throw new FarmError('farm/store', `The bundle ${hash} names a file outside of itself.`);
+        await copyWhole(this.objectPath(object), join(partial, name));
+        if ((await hashFile(join(partial, name))) !== object)
+          throw new FarmError('farm/store', `The object ${object} is damaged: delete it and submit again.`);
+      }
+      await renameUnlessThere(partial, folder);
+    } finally {
+      await rm(partial, { recursive: true, force: true });
+    }
+    return folder;
+  }
+
+  /** The folder of a job's result. */
+  resultFolder(id: string): string {
+    return join(this.folder, 'results', checked(id).slice(0, 2), id);
+  }
+
+  /** The result of a finished job; `undefined` if it is not finished, or a file of it is missing. */
+  async result(id: string): Promise<JobResult | undefined> {
+    const folder = this.resultFolder(id);
+    const text = await readFile(join(folder, 'result.json'), 'utf8').catch(() => undefined);
+    if (text === undefined) return undefined;
+    const result = JSON.parse(text) as JobResult;
+    const sizes = await Promise.all(
+      result.files.map(({ name }) =>
+        stat(join(folder, name)).then(
+          ({ size }) => size,
+          () => -1,
+        ),
+      ),
+    );
+    if (result.files.every(({ bytes }, i) => sizes[i] === bytes)) return result;
+    // A file was taken away by hand: the job is to be done again.
+    await rm(folder, { recursive: true, force: true });
+    return undefined;
+  }
+
+  /** An empty folder for the files of a job that begins. */
+  async begin(id: string): Promise<string> {
+    const folder = join(this.folder, 'working', `${checked(id)}.${process.pid}-${randomBytes(4).toString('hex')}`);
+    await mkdir(folder, { recursive: true });
+    return folder;
+  }
+
+  /**
+   * Makes a working folder the result of its job.
+   *
+   * @returns Whether this is the first one; otherwise the folder is deleted.
+   */
+  async commit(folder: string, result: Omit<JobResult, 'files'>, names: readonly string[]): Promise<boolean> {
+    const files = await Promise.all(
+      names.map(async (name) => {
+        const { size } = await stat(join(folder, name));
+        return { name, bytes: size, sha256: await hashFile(join(folder, name)) };
+      }),
+    );
+    await writeWhole(join(folder, 'result.json'), JSON.stringify({ ...result, files } satisfies JobResult));
+    const target = this.resultFolder(result.id);
+    await mkdir(join(target, '..'), { recursive: true });
+    return renameUnlessThere(folder, target);
+  }
+
+  /** Where a job that is given back keeps its samples. */
+  async checkpoint(id: string): Promise<string> {
+    const folder = join(this.folder, 'checkpoints');
+    await mkdir(folder, { recursive: true });
+    return join(folder, `${checked(id)}.film`);
+  }
+
+  /**
+   * Copies the files of a result to where they are wanted; files that are there already stay.
+   *
+   * @throws {FarmError} `farm/store` for paths outside of the root, too few paths, and files that cannot be written
+   */
+  async deliver(result: JobResult, { root, paths }: Destination): Promise<void> {
+    if (paths.length !== result.files.length)
+      throw new FarmError('farm/store', `${result.label}: ${paths.length} paths for ${result.files.length} files.`);
+    for (const [i, { name, bytes, sha256 }] of result.files.entries()) {
+      const target = resolve(root, paths[i] as string);
+      if (!(await liesBelow(target, root)))
+        throw new FarmError('farm/store', `"${target}" lies outside the folder "${root}".`);
+      const there = await stat(target).catch(() => undefined);
+      if (there?.isFile() && there.size === bytes && (await hashFile(target)) === sha256) continue;
+      await copyWhole(join(this.resultFolder(result.id), name), target);
+    }
+  }
+
+  /** Deletes what workers that were killed more than a day ago have left. */
+  async sweep(now = Date.now()): Promise<void> {
+    const folder = join(this.folder, 'working');
+    for (const name of await readdir(folder).catch(() => [])) {
+      const found = await stat(join(folder, name)).catch(() => undefined);
+      if (found && now - found.mtimeMs > DAY_MS) await rm(join(folder, name), { recursive: true, force: true });
+    }
+  }
+}
+
+const exists = (path: string) =>
+  stat(path).then(
+    () => true,
+    () => false,
+  );
+
+/** Renames a folder; where the target is there already, deletes it instead. Gives whether it was renamed. */
+async function renameUnlessThere(from: string, to: string): Promise<boolean> {
+  try {
+    await rename(from, to);
+    return true;
+  } catch (cause) {
+    if (!(await exists(to)))
+      throw new FarmError('farm/store', `Cannot write "${to}": ${(cause as Error).message}.`, { cause });
+    await rm(from, { recursive: true, force: true });
+    return false;
+  }
+}

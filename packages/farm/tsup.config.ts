@@ -1,0 +1,3 @@
+import { glanzPackage } from '../../tsup.base';
+
+export default glanzPackage({ index: 'src/index.ts' }, { platform: 'node', external: ['bullmq', 'ioredis'] });
