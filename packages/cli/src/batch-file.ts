@@ -131,12 +131,22 @@ export async function checkBatchOutputs(
  * @param warn Gets a warning for each image that uses a former name of an option.
  * @throws {CliError} `cli/input`, `cli/batch`, `cli/usage`
  */
-export async function readBatch(
+export const readBatch = async (...args: Parameters<typeof openBatch>): Promise<BatchRequest[]> => [
+  ...(await openBatch(...args))(),
+];
+
+/**
+ * Opens a batch file. See {@link readBatch}.
+ *
+ * @returns The images, checked as they come, from the first one again with each call.
+ * @throws {CliError} `cli/input`, `cli/batch`; while it iterates `cli/batch`, `cli/usage`
+ */
+export async function openBatch(
   file: string,
   cwd: string,
   given: RenderValues & { readonly model?: string | undefined },
   warn: (text: string) => void = () => undefined,
-): Promise<BatchRequest[]> {
+): Promise<() => Generator<BatchRequest>> {
   const text = new TextDecoder()
     .decode(await readInput(file, cwd, 'the batch', { maxBytes: MAX_SETTINGS_BYTES }))
     .replace(/^\uFEFF/, '');
@@ -172,7 +182,7 @@ export async function readBatch(
   if (rows.length === 0) throw wrong(file, 'there is no image in it.');
   const folder = dirname(file);
   const near = (path: string) => (isAbsolute(path) || folder === '.' ? path : join(folder, path));
-  return rows.map(([where, row]) => {
+  const request = ([where, row]: (typeof rows)[number]): BatchRequest => {
     const { values: said, model = given.model } = valuesOf(row, file, where);
     const values = presentNames(said, warn);
     if (model === undefined) throw wrong(file, `${where}: "model" is missing.`);
@@ -194,5 +204,8 @@ export async function readBatch(
         ? new CliError(error.code, `${file}, ${where}: ${error.message}`, { cause: error, location: { file } })
         : error;
     }
-  });
+  };
+  return function* () {
+    for (const row of rows) yield request(row);
+  };
 }

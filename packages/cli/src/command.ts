@@ -1,5 +1,6 @@
 import { parseConvert } from './commands/convert';
 import { parseBench } from './commands/bench';
+import { parseFarm } from './commands/farm/parse';
 import { parseInfo } from './commands/info';
 import { parseMerge } from './commands/merge';
 import { parseServe } from './commands/serve';
@@ -24,6 +25,7 @@ export type Command =
   | ReturnType<typeof parseBench>
   | ReturnType<typeof parseServe>
   | ReturnType<typeof parseMerge>
+  | ReturnType<typeof parseFarm>
   | RenderCommand;
 
 /**
@@ -41,6 +43,7 @@ export function parseCommand(argv: readonly string[]): Command {
   if (first === 'bench') return parseBench(argv.slice(1));
   if (first === 'serve') return parseServe(argv.slice(1));
   if (first === 'merge') return parseMerge(argv.slice(1));
+  if (first === 'farm') return parseFarm(argv.slice(1));
   const { values: given, positionals } = parseOptions(argv);
   const warnings: string[] = [];
   const values = presentNames(given, (text) => warnings.push(text));
@@ -52,7 +55,7 @@ export function parseCommand(argv: readonly string[]): Command {
     if (argv.length === 0) return { kind: 'help', topic: undefined };
     throw usage('No command given. Use glanz render MODEL; see glanz --help.');
   }
-  const commands = ['render', 'convert', 'info', 'bench', 'serve', 'merge'];
+  const commands = ['render', 'convert', 'info', 'bench', 'serve', 'merge', 'farm'];
   if (command !== 'render') {
     if (commands.includes(command)) throw usage(`"${command}" comes first: glanz ${command} …; see glanz --help.`);
     const guess = closest(command, commands);

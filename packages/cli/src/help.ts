@@ -47,6 +47,45 @@ const COMMANDS = {
   at once, so merge many large ones group by group.
   -o, --output FILE     .png, .hdr, .exr (image and variance), or .film again.
 `,
+  farm: `MANY IMAGES ON MANY MACHINES
+  glanz farm submit BATCH --redis URL [--split N] [...]
+  glanz farm work --redis URL [--gpu NAME]... [--until-empty]
+  glanz farm status --redis URL [--metrics]
+  glanz farm retry | cancel ID... | --all --redis URL
+  glanz farm manifest BATCH --manifest FILE [...]
+  glanz farm task BATCH [--image N] [...]
+
+  submit queues the images of a batch file, and work renders them, on any
+  number of machines that see the store's folder. An image has an identity by
+  its content: model, environment, variant, view, options, version. What the
+  store has is copied and not rendered again, so that a batch is resumed by
+  submitting it. Without --redis, submit renders on this machine, as
+  glanz render --batch BATCH --resume does. The queue needs Redis (appendonly
+  yes, maxmemory-policy noeviction) and the packages bullmq and ioredis. All
+  options of glanz render are defaults for the images.
+      --redis URL       redis://HOST:6379. Default: GLANZ_REDIS.
+      --queue NAME      Several farms may share a Redis. Default glanz.
+      --store DIR       A folder that all machines see. Default .glanz-farm.
+      --output-root DIR submit: the folder below which all files are written.
+                        Default: that of the batch. work: the same folder where
+                        this machine sees it under another name.
+      --split N         Images with more samples than N become several jobs,
+                        whose films are added up as glanz merge does.
+      --gpu NAME        work: a worker for each; "all" for each that there is.
+      --until-empty     work: end when the queue is empty.
+      --lock S          work: S seconds after a worker was killed its job goes
+                        to another one. Default 30.
+      --metrics         status: Prometheus text.
+      --image N         task: render these images in this process, without a
+                        queue: 3, 0,4, 10-19. Default: all.
+      --manifest FILE   manifest: JSON of the images that are finished, in the
+                        order of the batch; the exit status is 1 while some are
+                        missing.
+  SIGTERM and Ctrl-C let work keep the samples of its job and give it back. A
+  job whose GPU was lost goes to another worker at once; one whose input is
+  wrong is not tried again, and one that ends its renderer's process is tried
+  three times. status lists what was given up, with the end of its log.
+`,
   serve: `THE PLAYGROUND
   glanz serve [--port N] [--host NAME] [--json]
 
@@ -67,6 +106,7 @@ SYNOPSIS
   glanz render --batch FILE [--resume] [--gpu NAME]... [...]
   glanz convert PART [-o FILE.glb] [--lod N] [--materials FILE] [--strip] [...]
   glanz merge A.film B.film [...] -o FILE
+  glanz farm submit BATCH | work | status [--redis URL] [...]
   glanz info MODEL | bench [MODEL] | serve
   glanz --list-gpus
   glanz help [COMMAND] | --help | --version
@@ -185,6 +225,7 @@ ${COMMANDS.convert}
 ${COMMANDS.info}
 ${COMMANDS.bench}
 ${COMMANDS.merge}
+${COMMANDS.farm}
 ${COMMANDS.serve}
 MACHINE
       --list-gpus       List what could render, and exit.

@@ -72,7 +72,8 @@ export interface RenderCommand extends ReportOptions {
   readonly gpus: readonly string[];
 }
 
-const OPTIONS = {
+/** The options of `glanz render`, and of what renders batches. */
+export const OPTIONS = {
   output: { type: 'string', short: 'o', multiple: true },
   env: { type: 'string' },
   'env-rotation': { type: 'string' },
@@ -218,15 +219,23 @@ function completedValues(argv: readonly string[]): string[] {
 
 /** Splits the command line into options and positional arguments. @throws {CliError} `cli/usage` */
 export function parseOptions(argv: readonly string[]) {
+  return parseOptionsOf(argv, OPTIONS);
+}
+
+/** Likewise, with other options. @throws {CliError} `cli/usage` */
+export function parseOptionsOf<T extends NonNullable<ParseArgsConfig['options']>>(
+  argv: readonly string[],
+  options: T,
+): ReturnType<typeof parseArgs<{ args: string[]; options: T; allowPositionals: true; strict: true }>> {
   try {
-    return parseArgs({ args: completedValues(argv), options: OPTIONS, allowPositionals: true, strict: true });
+    return parseArgs({ args: completedValues(argv), options, allowPositionals: true, strict: true });
   } catch (cause) {
     const { code, message } = cause as Error & { code?: string };
     const option = /'([^' ]*)/.exec(message)?.[1] ?? '';
     if (code === 'ERR_PARSE_ARGS_UNKNOWN_OPTION') {
       const guess = closest(
         option.replace(/^-+/, ''),
-        Object.keys(OPTIONS).filter((name) => !Object.hasOwn(FORMER_NAMES, name)),
+        Object.keys(options).filter((name) => !Object.hasOwn(FORMER_NAMES, name)),
       );
       throw usage(`Unknown option "${option}".${guess ? ` Did you mean --${guess}?` : ''} See glanz --help.`);
     }

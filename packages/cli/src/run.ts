@@ -45,6 +45,7 @@ export async function runCli(
     if (command.kind === 'bench')
       return await benchCommand(command, io, backend, new ProgressReporter(io, command.quiet));
     if (command.kind === 'serve') return await serveCommand(command, io);
+    if (command.kind === 'farm') return await (await import('./commands/farm/run')).farmCommand(command, io, backend);
     if (command.kind === 'merge') return await mergeCommand(command, io, backend);
     if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
     const { result, exitCode } = await renderCommand(command, io, backend, new ProgressReporter(io, command.quiet));

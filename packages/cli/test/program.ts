@@ -15,7 +15,16 @@ export async function bundleProgram(outfile: string): Promise<void> {
     format: 'esm',
     target: 'node20',
     conditions: ['@glanz/source'],
-    external: ['webgpu', 'sharp', '@sparticuz/chromium', 'draco3dgltf', 'meshoptimizer', 'meshoptimizer/*'],
+    external: [
+      'webgpu',
+      'sharp',
+      '@sparticuz/chromium',
+      'draco3dgltf',
+      'meshoptimizer',
+      'meshoptimizer/*',
+      'bullmq',
+      'ioredis',
+    ],
     // Some dependencies of dependencies are CommonJS and ask for Node's modules by require().
     banner: {
       js: "import { createRequire as glanzRequire } from 'node:module'; const require = glanzRequire(import.meta.url);",

@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import { findRedis, type RedisProgram } from '@glanz/redis';
 import { describe, expect, it } from 'vitest';
 import { farmMetrics } from '../src/index';
-import { jobOf, testFarm } from './farm-on-redis';
+import { jobOf, temporaryFolder, testFarm } from './farm-on-redis';
 
 const redis = await findRedis();
 const program = redis.program as RedisProgram;
@@ -173,12 +173,19 @@ describe.skipIf(redis.missing !== undefined)(redis.missing ?? 'a farm on Redis',
   });
 
   it('says where Redis is not, and what to install', async () => {
-    const { openFarmQueue, importQueueModules } = await import('../src/index');
+    const { openFarmQueue, importQueueModules, startFarmWorker, FolderStore } = await import('../src/index');
     const modules = await importQueueModules();
     await expect(openFarmQueue({ redis: 'redis://:secret@127.0.0.1:1', modules })).rejects.toMatchObject({
       code: 'farm/redis',
       message: expect.stringMatching(/redis:\/\/:\*\*\*@127\.0\.0\.1:1/),
     });
+    const worker = {
+      redis: 'redis://127.0.0.1:1',
+      connectMs: 0,
+      store: new FolderStore(temporaryFolder()),
+      renderer: { script: 'x', args: [] },
+    };
+    await expect(startFarmWorker(worker)).rejects.toMatchObject({ code: 'farm/redis' });
     await expect(openFarmQueue({ redis: 'localhost', modules })).rejects.toMatchObject({ code: 'farm/option' });
     await expect(openFarmQueue({ redis: 'redis://127.0.0.1:1', name: 'a:b', modules })).rejects.toMatchObject({
       code: expect.stringMatching(/^farm\/(option|redis)$/),

@@ -114,6 +114,11 @@ export class RedisServer {
     throw new Error(`redis-server does not answer: ${said.slice(-500)}`);
   }
 
+  /** Whether it was started and not ended. */
+  get running(): boolean {
+    return this.#child !== undefined;
+  }
+
   /** Ends it at once, as a crash does. */
   kill(): Promise<void> {
     return this.#end('SIGKILL');

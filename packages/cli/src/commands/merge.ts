@@ -1,17 +1,16 @@
 import { parseArgs } from 'node:util';
-import { resolve } from 'node:path';
 import { TONE_MAPS, isToneMap } from '@glanz/tonemap';
-import type { Backend, FilmState } from '../backend';
+import type { Backend } from '../backend';
 import { CliError, EXIT } from '../errors';
 import { parseExposure } from '../exposure';
 import { checkInput } from '../input';
 import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
 import { formatOf, type OutputTarget } from '../output/formats';
-import type { RenderedImage } from '../output/image';
 import type { DisplayOptions } from '../output/png';
 import { checkWritable, isImage, writeImage, type WrittenFile } from '../output/write';
-import { readFilmFile, settingDifferences, writeFilmFile, type FilmFileHeader } from '../render/film-file';
+import { writeFilmFile } from '../render/film-file';
+import { imageOfFilm, readFilms, SAMPLES_FROM } from '../render/merged-films';
 import { version } from '../version';
 import { jsonLine, visible } from '../visible';
 
@@ -25,7 +24,6 @@ export interface MergeCommand extends ReportOptions {
 }
 
 const usage = (message: string) => new CliError('cli/usage', message);
-const SAMPLES_FROM = '--samples-from';
 
 /**
  * Reads the arguments after `merge`.
@@ -82,44 +80,10 @@ export async function mergeCommand(
   for (const path of paths) await checkInput(path, io.cwd, 'the film', Infinity);
   for (const { path } of outputs) await checkWritable(path, io.cwd);
   const codec = () => backend.filmCodec();
-  let settings: FilmFileHeader['settings'] = {};
-  const films: FilmState[] = [];
-  for (const path of paths) {
-    const wrong = (message: string, cause?: unknown) =>
-      new CliError('cli/film', message, { cause, location: { file: path } });
-    const foreign = () => wrong(`"${path}" is not a film of glanz. Films are written by glanz render -o FILE.film.`);
-    const read = await readFilmFile(
-      resolve(io.cwd, path),
-      codec,
-      { foreign, broken: (why, cause) => wrong(`"${path}" cannot be merged: ${why}. Render it again.`, cause) },
-      (header) => {
-        if (films.length === 0) settings = header.settings;
-        const differing = settingDifferences(
-          { ...header.settings, [SAMPLES_FROM]: settings[SAMPLES_FROM] as string },
-          settings,
-          `in "${paths[0]}"`,
-        );
-        if (differing.length > 0)
-          throw wrong(
-            `"${path}" cannot be merged with "${paths[0]}": ${differing.join('; ')}. Films to be merged differ in --samples-from and --samples alone.`,
-          );
-      },
-    );
-    if (!read) throw foreign();
-    films.push(read.film);
-  }
-  const { merge, layer } = await codec();
-  const film = merge(films);
+  const { film, settings } = await readFilms(paths, io.cwd, backend);
   const [first] = film.ranges[0] as readonly [number, number];
   const transparent = settings['--transparent'] === 'true' || settings['--background'] === 'transparent';
-  const image: RenderedImage = {
-    width: film.width,
-    height: film.height,
-    beauty: layer(film, 'beauty'),
-    layers: { variance: layer(film, 'variance') },
-    samples: film.samples,
-    software: `Glanz ${version()}`,
-  };
+  const image = await imageOfFilm(film, backend);
   const files: WrittenFile[] = [];
   for (const target of outputs) {
     if (isImage(target)) files.push(await writeImage(image, target, { ...display, transparent }, io.cwd));

@@ -104,6 +104,10 @@ export async function renderCommand(
 
 const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : EXIT_OF_INTERRUPT[interrupted]);
 
+/** The error of `--variant all` for a model without any. */
+export const noVariants = ({ model }: RenderCommandOptions): CliError =>
+  new CliError('cli/usage', `--variant all: "${model}" has no variants.`);
+
 async function variantsOf(
   options: RenderCommandOptions,
   loader: SceneLoader,
@@ -111,7 +115,7 @@ async function variantsOf(
 ): Promise<readonly string[]> {
   progress.stage('load model');
   const { variants = [] } = (await loader.load(options, signal)).scene;
-  if (variants.length === 0) throw new CliError('cli/usage', `--variant all: "${options.model}" has no variants.`);
+  if (variants.length === 0) throw noVariants(options);
   return variants;
 }
 

@@ -11,6 +11,7 @@ import {
   type BullQueue,
   type BullWorker,
   type QueuedJob,
+  type QueueModules,
   type RedisClient,
 } from '../queue/redis';
 import type { WorkerState } from '../queue/status';
@@ -31,6 +32,8 @@ export interface FarmWorkerOptions extends FarmQueueOptions {
    * goes to another one after this time. Extended from the worker's own process, which renders nothing. Default: 30 s.
    */
   readonly lockMs?: number | undefined;
+  /** Milliseconds that Redis may take to answer at the start. Afterwards commands wait for it. Default: 20 s. */
+  readonly connectMs?: number | undefined;
   /** Milliseconds between heartbeats. Default: 5 s. */
   readonly beatMs?: number | undefined;
   /** Called with each event, for logs. */
@@ -56,6 +59,8 @@ class Moved extends Error {
 
 const LOCK_MS = 30_000;
 const BEAT_MS = 5_000;
+const CONNECT_MS = 20_000;
+const CONNECT_PAUSE_MS = 500;
 /** How many workers may end while they have a job: it does not cause the end of a machine that is switched off. */
 const MAX_STALLS = 20;
 const RECENT = 200;
@@ -285,6 +290,21 @@ function failureOf(error: unknown): RenderFailure {
   return new RenderFailure(typeof code === 'string' ? 'output' : 'other', 'farm/store', message);
 }
 
+/** A Redis that restarts takes a few seconds. @throws {FarmError} `farm/redis` for one that does not answer at all */
+async function untilRedisAnswers(
+  modules: QueueModules,
+  { redis, connectMs = CONNECT_MS }: FarmWorkerOptions,
+): Promise<void> {
+  for (const end = Date.now() + connectMs; ; await new Promise((done) => setTimeout(done, CONNECT_PAUSE_MS))) {
+    try {
+      (await connectRedis(modules, redis, false)).disconnect();
+      return;
+    } catch (error) {
+      if (!(error instanceof FarmError) || error.code !== 'farm/redis' || Date.now() >= end) throw error;
+    }
+  }
+}
+
 /**
  * Starts a worker, which runs until it is drained. Redis may go and come back meanwhile.
  *
@@ -292,8 +312,7 @@ function failureOf(error: unknown): RenderFailure {
  */
 export async function startFarmWorker(options: FarmWorkerOptions): Promise<FarmWorker> {
   const modules = options.modules ?? (await importQueueModules());
-  // A wrong address is an error now; later on, commands wait for Redis.
-  (await connectRedis(modules, options.redis, false)).disconnect();
+  await untilRedisAnswers(modules, options);
   await options.store.sweep();
   const keys = keysOf(options.name);
   const report = (error: Error) => options.onEvent?.({ type: 'redis', message: error.message });

@@ -22,10 +22,10 @@ export interface JobRenderer {
 const MESSAGE_MS = 5_000;
 
 /**
- * Renders the jobs that the worker which started this process sends, until the worker has ended. Progress is reported at
+ * Renders the jobs that the worker which started this process sends, and ends this process when the worker has ended. Progress is reported at
  * most ten times a second.
  */
-export async function serveRenderer(renderer: JobRenderer): Promise<void> {
+export function serveRenderer(renderer: JobRenderer): Promise<never> {
   let stop = new AbortController();
   const send = (message: FromRenderer) => {
     if (process.connected) process.send?.(message);
@@ -52,14 +52,14 @@ export async function serveRenderer(renderer: JobRenderer): Promise<void> {
       clearInterval(timer);
     }
   };
-  await new Promise<void>((gone) => {
+  return new Promise<never>(() => {
     process.on('message', (message: ToRenderer) => {
       if (message.type === 'stop') return stop.abort();
       stop = new AbortController();
       void work(message);
     });
     // The worker was killed: nothing would read the files.
-    process.once('disconnect', () => gone());
+    process.once('disconnect', () => process.exit());
     // Signals from the terminal reach both; the worker decides.
     process.on('SIGINT', () => undefined);
     process.on('SIGTERM', () => undefined);

@@ -1,0 +1,125 @@
+import { join } from 'node:path';
+import { usage, OPTIONS, parseOptionsOf, presentNames, type RenderValues, type ReportOptions } from '../../options';
+
+/** What `glanz farm` takes beside the options of `glanz render`. */
+const FARM_OPTIONS = {
+  ...OPTIONS,
+  redis: { type: 'string' },
+  queue: { type: 'string' },
+  store: { type: 'string' },
+  split: { type: 'string' },
+  lock: { type: 'string' },
+  image: { type: 'string' },
+  manifest: { type: 'string' },
+  metrics: { type: 'boolean' },
+  'until-empty': { type: 'boolean' },
+  all: { type: 'boolean' },
+} as const;
+
+/** What `glanz farm` can be followed by. */
+export const FARM_ACTIONS = ['submit', 'work', 'status', 'retry', 'cancel', 'task', 'manifest', 'renderer'] as const;
+
+type Action = (typeof FARM_ACTIONS)[number];
+
+/** `glanz farm`. */
+export interface FarmCommand extends ReportOptions {
+  readonly kind: 'farm';
+  readonly action: Action;
+  /** A batch file, or the ids of jobs. */
+  readonly args: readonly string[];
+  readonly redis: string | undefined;
+  readonly queue: string | undefined;
+  /** The store's folder. */
+  readonly store: string;
+  /** Maximum samples of a job. */
+  readonly split: number | undefined;
+  /** Seconds. */
+  readonly lock: number | undefined;
+  /** Numbers of images, from 0. */
+  readonly images: readonly number[] | undefined;
+  readonly manifest: string | undefined;
+  readonly metrics: boolean;
+  readonly untilEmpty: boolean;
+  readonly all: boolean;
+  readonly outputRoot: string | undefined;
+  readonly gpus: readonly string[];
+  readonly values: RenderValues;
+  readonly warnings: readonly string[];
+}
+
+/** Where the store is unless `--store` names another folder. */
+export const DEFAULT_STORE = '.glanz-farm';
+
+const BATCH: readonly Action[] = ['submit', 'task', 'manifest'];
+const REDIS: readonly Action[] = ['work', 'status', 'retry', 'cancel'];
+
+/**
+ * Reads the arguments after `farm`.
+ *
+ * @param environment For `GLANZ_REDIS`.
+ * @throws {CliError} `cli/usage`
+ */
+export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEnv = process.env): FarmCommand {
+  const { values: given, positionals } = parseOptionsOf(argv, FARM_OPTIONS);
+  const [action, ...args] = positionals;
+  if (!FARM_ACTIONS.includes(action as Action))
+    throw usage(
+      `${action === undefined ? 'Nothing' : `"${action}"`} is not an action of glanz farm. Known: ${FARM_ACTIONS.slice(0, -1).join(', ')}. See glanz help farm.`,
+    );
+  const is = action as Action;
+  const warnings: string[] = [];
+  const { redis: address, queue, store, split, lock, image, manifest, ...rest } = given;
+  const values = presentNames(rest as RenderValues, (text) => warnings.push(text));
+  const redis = address ?? (environment.GLANZ_REDIS || undefined);
+  if (BATCH.includes(is) && args.length !== 1)
+    throw usage(`glanz farm ${is} takes one batch file: glanz farm ${is} batch.json. See glanz help farm.`);
+  if (REDIS.includes(is) && redis === undefined)
+    throw usage(`glanz farm ${is} needs --redis redis://HOST:6379, or GLANZ_REDIS in the environment.`);
+  if ((is === 'work' || is === 'status') && args.length > 0)
+    throw usage(`glanz farm ${is} takes no files: what is "${args[0]}"?`);
+  if ((is === 'retry' || is === 'cancel') && args.length > 0 === (given.all ?? false))
+    throw usage(`glanz farm ${is} takes ids of jobs, which glanz farm status lists, or --all.`);
+  if (is === 'manifest' && manifest === undefined)
+    throw usage('glanz farm manifest needs --manifest FILE, where to write it.');
+  return {
+    kind: 'farm',
+    action: is,
+    args,
+    json: given.json ?? false,
+    quiet: given.quiet ?? false,
+    redis,
+    queue,
+    store: store ?? join('.', DEFAULT_STORE),
+    split: whole('split', split, 16, 2147483647),
+    lock: whole('lock', lock, 1, 3600),
+    images: image === undefined ? undefined : numbersOf(image),
+    manifest,
+    metrics: given.metrics ?? false,
+    untilEmpty: given['until-empty'] ?? false,
+    all: given.all ?? false,
+    outputRoot: given['output-root'],
+    gpus: given.gpu ?? [],
+    values,
+    warnings,
+  };
+}
+
+function whole(name: string, text: string | undefined, min: number, max: number): number | undefined {
+  if (text === undefined) return undefined;
+  const value = text.trim() === '' ? NaN : Number(text);
+  if (!Number.isInteger(value) || value < min || value > max)
+    throw usage(`--${name} must be a whole number from ${min} to ${max}, not "${text}".`);
+  return value;
+}
+
+/** `3`, `0,4`, `10-19`. */
+function numbersOf(text: string): number[] {
+  const out: number[] = [];
+  for (const part of text.split(',')) {
+    const [, from, to = from] = /^\s*(\d{1,9})(?:-(\d{1,9}))?\s*$/.exec(part) ?? [];
+    if (from === undefined || Number(to) < Number(from) || Number(to) - Number(from) > 1e6)
+      throw usage(`--image must be numbers from 0, such as 3 or 0,4 or 10-19, not "${text}".`);
+    for (let i = Number(from); i <= Number(to); i++) out.push(i);
+  }
+  return out;
+}

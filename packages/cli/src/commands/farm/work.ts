@@ -1,0 +1,103 @@
+import { existsSync } from 'node:fs';
+import { resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { FolderStore, startFarmWorker, type FarmWorker, type WorkerEvent } from '@glanz/farm';
+import type { Backend } from '../../backend';
+import { CliError, EXIT } from '../../errors';
+import type { CliIo } from '../../io';
+import type { ProgressReporter } from '../../progress';
+import { jsonLine } from '../../visible';
+import type { FarmCommand } from './parse';
+
+/** Milliseconds between two looks at whether the queue is empty. */
+const LOOK_MS = 500;
+
+/** The program, for the renderers' processes: beside this file in the package, or this process's own script. */
+function program(): string {
+  const beside = fileURLToPath(new URL('./glanz.js', import.meta.url));
+  return existsSync(beside) ? beside : (process.argv[1] as string);
+}
+
+/**
+ * The GPUs that `--gpu` names; `all` stands for those that are no software.
+ *
+ * @throws {CliError} `cli/usage` for two of one name, which it cannot distinguish
+ */
+export async function gpusOf(names: readonly string[], backend: Backend): Promise<(string | undefined)[]> {
+  if (names.length === 0) return [undefined];
+  if (!names.includes('all')) return [...names];
+  const found = (await backend.listGpus()).filter(({ software }) => !software).map(({ name }) => name);
+  if (found.length === 0)
+    throw new CliError('renderer/no-adapter', '--gpu all: there is no GPU. See glanz --list-gpus.');
+  const twice = found.find((name, i) => found.indexOf(name) !== i);
+  if (twice !== undefined)
+    throw new CliError(
+      'cli/usage',
+      `--gpu all: two GPUs are called "${twice}", and GPUs are chosen by name. Start one glanz farm work for each, in a container that sees that GPU alone: docker run --gpus device=0 and so on.`,
+    );
+  return found;
+}
+
+const EVENTS = {
+  begun: ({ job }: WorkerEvent & { type: 'begun' }) => `begin ${job.label}`,
+  done: ({ job, result, first }: WorkerEvent & { type: 'done' }) =>
+    `${first ? 'done' : 'found'} ${job.label}, ${result.seconds.toFixed(1)} s`,
+  failed: ({ job, failure, next }: WorkerEvent & { type: 'failed' }) =>
+    `failed ${job.label}: ${failure.message} [${failure.code}], ${next}`,
+  'given-back': ({ job }: WorkerEvent & { type: 'given-back' }) => `given back ${job.label}`,
+  cancelled: ({ job }: WorkerEvent & { type: 'cancelled' }) => `cancelled ${job.label}`,
+  redis: ({ message }: WorkerEvent & { type: 'redis' }) => `Redis: ${message}`,
+} as Readonly<Record<WorkerEvent['type'], (event: never) => string>>;
+
+/** `glanz farm work`: renders jobs until a signal, or until the queue is empty. Gives the exit code. */
+export async function workCommand(
+  command: FarmCommand,
+  io: CliIo,
+  backend: Backend,
+  progress: ProgressReporter,
+): Promise<number> {
+  const { redis, queue, lock, outputRoot, untilEmpty, json } = command;
+  const gpus = await gpusOf(command.gpus, backend);
+  const store = new FolderStore(resolve(io.cwd, command.store));
+  const counts = { done: 0, failed: 0 };
+  let lastRedis = '';
+  const onEvent = (event: WorkerEvent) => {
+    if (event.type === 'done') counts.done++;
+    if (event.type === 'failed' && event.next.startsWith('given up')) counts.failed++;
+    // While Redis is away the same error comes again and again.
+    if (event.type === 'redis' && event.message === lastRedis) return;
+    lastRedis = event.type === 'redis' ? event.message : '';
+    progress.line(EVENTS[event.type](event as never));
+  };
+  const workers: FarmWorker[] = [];
+  const stop = new AbortController();
+  const stopListening = io.onInterrupt(() => {
+    progress.line('stopping: what is unfinished goes back to the queue');
+    stop.abort();
+  });
+  try {
+    for (const gpu of gpus)
+      workers.push(
+        await startFarmWorker({
+          redis: redis as string,
+          name: queue,
+          store,
+          renderer: { script: program(), args: ['farm', 'renderer', ...(gpu === undefined ? [] : ['--gpu', gpu])] },
+          gpu,
+          ...(outputRoot === undefined ? {} : { outputRoot: resolve(io.cwd, outputRoot) }),
+          ...(lock === undefined ? {} : { lockMs: 1000 * lock, beatMs: Math.min(5000, 250 * lock) }),
+          onEvent,
+        }),
+      );
+    progress.line(`${workers.length === 1 ? 'a worker is' : `${workers.length} workers are`} ready`);
+    for (let empty = 0; !stop.signal.aborted && empty < 2;) {
+      await io.wait(LOOK_MS, stop.signal);
+      empty = untilEmpty && !stop.signal.aborted && (await (workers[0] as FarmWorker).left()) === 0 ? empty + 1 : 0;
+    }
+  } finally {
+    await Promise.all(workers.map((worker) => worker.drain()));
+    stopListening();
+  }
+  if (json) io.stdout(jsonLine({ ok: counts.failed === 0, ...counts }));
+  return counts.failed === 0 ? EXIT.ok : EXIT.failure;
+}

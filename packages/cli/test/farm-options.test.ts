@@ -1,0 +1,158 @@
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { describe, expect, it } from 'vitest';
+import { gpusOf } from '../src/commands/farm/work';
+import { FarmPlan, type PlannedImage } from '../src/farm/plan';
+import { modelFiles } from '../src/farm/model-files';
+import { FolderStore } from '@glanz/farm';
+import { fakeBackend, FAKE_GPUS, run, temporaryFolder } from './fakes';
+import { makeGlb } from './glb';
+
+async function plan(cwd: string, options: { split?: number; outputRoot?: string; values?: object } = {}) {
+  const warnings: string[] = [];
+  const opened = await FarmPlan.open({
+    batch: 'b.json',
+    cwd,
+    values: options.values ?? {},
+    outputRoot: options.outputRoot,
+    split: options.split,
+    variantsOf: async () => ['red', 'blue'],
+    warn: (text) => void warnings.push(text),
+  });
+  const count = await opened.check();
+  const images: PlannedImage[] = [];
+  for await (const image of opened.images(new FolderStore(join(cwd, 'store')))) images.push(image);
+  expect(images.length).toBe(count);
+  return { images, warnings };
+}
+
+const withBatch = (images: object[]) => {
+  const folder = temporaryFolder({ 'm.glb': makeGlb(), 'n.glb': makeGlb(), 'o.glb': makeGlb({ camera: true }) });
+  writeFileSync(join(folder, 'b.json'), JSON.stringify(images));
+  return folder;
+};
+
+describe('identity of jobs', () => {
+  it('depends on what decides the pixels, not on names', async () => {
+    const row = { model: 'm.glb', samples: 8, view: 'front', output: 'a.png' };
+    const cwd = withBatch([
+      row,
+      // The same bytes under other names, in another place, the view in numbers.
+      { ...row, model: 'n.glb', view: '0,0', output: 'sub/b.png' },
+      { ...row, model: 'o.glb', output: 'c.png' },
+      { ...row, samples: 9, output: 'd.png' },
+      { ...row, view: '0,1', output: 'e.png' },
+      { ...row, variant: '0', output: 'f.png' },
+      { ...row, output: 'g.png', bits: 16 },
+      { ...row, output: 'h.exr' },
+      { ...row, exposure: 1, output: 'i.png' },
+      { ...row, env: 'none', output: 'j.png' },
+      { ...row, seed: 3, output: 'k.png' },
+    ]);
+    const { images } = await plan(cwd);
+    expect(images[0]!.id).toBe(images[1]!.id);
+    expect(new Set(images.map(({ id }) => id)).size).toBe(images.length - 1);
+    expect(images[1]!.paths).toEqual([join('sub', 'b.png')]);
+  });
+
+  it('of parts: ranges of whole chunks, and a merge that names them', async () => {
+    const cwd = withBatch([{ model: 'm.glb', samples: 100, output: 'a.png' }]);
+    const { images } = await plan(cwd, { split: 40 });
+    const jobs = images[0]!.requests.map(({ job }) => job);
+    expect(jobs.map(({ payload }) => (payload as { range: object }).range)).toEqual([
+      { from: 0, samples: 48 },
+      { from: 48, samples: 48 },
+      { from: 96, samples: 4 },
+    ]);
+    expect(jobs[0]!.merge!.parts).toEqual(jobs.map(({ id }) => id));
+    expect(images[0]!.id).toBe(jobs[0]!.merge!.id);
+    expect(images[0]!.id).not.toBe((await plan(cwd)).images[0]!.id);
+    const { images: whole, warnings } = await plan(cwd, { split: 40, values: { noise: '0.1' } });
+    expect(whole[0]!.requests.length).toBe(1);
+    expect(warnings.join()).toContain('are not split');
+  });
+});
+
+describe('a batch is checked before anything is queued', () => {
+  const refused = (images: object[], outputRoot?: string) =>
+    plan(withBatch(images), outputRoot === undefined ? {} : { outputRoot }).catch(
+      (error: { code?: string }) => error.code,
+    );
+  it('names, files, places', async () => {
+    const row = { model: 'm.glb', output: 'a.png' };
+    expect(await refused([row, row])).toBe('cli/usage');
+    expect(await refused([row, { ...row, model: 'gone.glb', output: 'b.png' }])).toBe('cli/input');
+    expect(await refused([row, { ...row, output: '../b.png' }])).toBe('cli/batch');
+    expect(await refused([{ ...row, output: '../b.png' }], '..')).not.toBe('cli/batch');
+    expect(await refused([row, { ...row, output: 'b.png', sample: 3 }])).toBe('cli/batch');
+  });
+});
+
+describe('the files of a model', () => {
+  it('glTF with what it names, wherever in the file; nothing outside of its folder', async () => {
+    const json = {
+      asset: { version: '2.0' },
+      buffers: [{ uri: 'a%20b.bin' }, { uri: 'data:application/octet-stream;base64,AA==' }],
+      images: [{ uri: 'tex/gone.png' }, { uri: 'https://example.invalid/x.png' }],
+      extensions: { EXT_lights_ies: { lights: [{ uri: 'lamp.ies' }] } },
+    };
+    const folder = temporaryFolder({ 'Shoe.GLTF': JSON.stringify(json), 'a b.bin': 'x', 'lamp.ies': 'y' });
+    expect(await modelFiles(join(folder, 'Shoe.GLTF'))).toEqual({
+      main: 'model.gltf',
+      files: [
+        { name: 'model.gltf', path: join(folder, 'Shoe.GLTF') },
+        { name: 'a b.bin', path: join(folder, 'a b.bin') },
+        { name: 'lamp.ies', path: join(folder, 'lamp.ies') },
+      ],
+    });
+    const outside = temporaryFolder({ 'x.gltf': JSON.stringify({ buffers: [{ uri: `${folder}/a b.bin` }] }) });
+    await expect(modelFiles(join(outside, 'x.gltf'))).rejects.toMatchObject({ code: 'cli/input' });
+  });
+
+  it('OBJ with its libraries and their textures', async () => {
+    const folder = temporaryFolder({
+      'x.obj': 'mtllib my mat.mtl\nv 0 0 0\n',
+      'my mat.mtl': 'newmtl a\nmap_Kd -s 1 1 1 wood.png\nbump no such.png\n',
+      'wood.png': 'x',
+    });
+    const { files } = await modelFiles(join(folder, 'x.obj'));
+    expect(files.map(({ name }) => name)).toEqual(['model.obj', 'my mat.mtl', 'wood.png']);
+  });
+});
+
+describe('the command line', () => {
+  it.each([
+    [['farm'], /is not an action of glanz farm/],
+    [['farm', 'submit'], /takes one batch file/],
+    [['farm', 'work'], /needs --redis/],
+    [['farm', 'status', 'x', '--redis', 'redis://a'], /takes no files/],
+    [['farm', 'retry', '--redis', 'redis://a'], /takes ids of jobs/],
+    [['farm', 'cancel', 'x', '--all', '--redis', 'redis://a'], /takes ids of jobs/],
+    [['farm', 'submit', 'b', '--split', '8'], /--split must be a whole number from 16/],
+    [['farm', 'task', 'b', '--image', '3-1'], /--image must be numbers/],
+    [['farm', 'manifest', 'b'], /needs --manifest/],
+    [['farm', 'submit', 'b', '--untl-empty'], /Did you mean --until-empty/],
+    [['farm', 'status', '--redis', 'localhost'], /must be like redis:/],
+  ])('%j', async (argv, message) => {
+    const { code, err } = await run(argv, temporaryFolder());
+    expect(err).toMatch(message);
+    expect(code).toBe(2);
+  });
+
+  it('without --redis it renders here, as render --batch --resume does', async () => {
+    const cwd = withBatch([{ model: 'm.glb', size: '8x8', samples: 2, output: 'a.png' }]);
+    const first = await run(['farm', 'submit', 'b.json', '--json'], cwd);
+    expect(JSON.parse(first.out)).toMatchObject({ ok: true, total: 1, skipped: 0 });
+    const second = await run(['farm', 'submit', 'b.json', '--json'], cwd);
+    expect(JSON.parse(second.out)).toMatchObject({ ok: true, total: 1, skipped: 1 });
+  });
+
+  it('--gpu all: those that are no software; two of one name are refused', async () => {
+    expect(await gpusOf([], fakeBackend().backend)).toEqual([undefined]);
+    expect(await gpusOf(['all'], fakeBackend().backend)).toEqual(['Fake 3000']);
+    const twins = fakeBackend({ listGpus: async () => [FAKE_GPUS[0]!, FAKE_GPUS[0]!] });
+    await expect(gpusOf(['all'], twins.backend)).rejects.toThrow(/two GPUs are called "Fake 3000"/);
+    const none = fakeBackend({ listGpus: async () => [FAKE_GPUS[1]!] });
+    await expect(gpusOf(['all'], none.backend)).rejects.toMatchObject({ code: 'renderer/no-adapter' });
+  });
+});
