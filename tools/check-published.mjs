@@ -1,7 +1,7 @@
 // node tools/check-published.mjs — what the registry would get: publint and attw on the tarballs, and the declarations
 // as consumers see them, with every module resolution that can read an export map, and the directives that frameworks
 // read.
-import { copyFileSync, existsSync, readFileSync, realpathSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, readFileSync, readdirSync, realpathSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import { bin, capture, root } from './pipeline/process.mjs';
 import { installPacked } from './pipeline/packed.mjs';
@@ -168,6 +168,43 @@ function checkFiles(p, { folder }, verdicts) {
   verdicts.expect(module.declarations[0].attributes.length > 20, `${p.name}: ${customElements} lists no attributes.`);
 }
 
+/**
+ * A page that imports the address of an archive of weights has that archive in its output, and no other: Vite copies what
+ * the files that it reads name, whether the page uses it or not.
+ */
+async function checkWeightFiles(p, { folder }, verdicts) {
+  if (p.name !== '@glanz/denoise-weights') return;
+  const { build } = await import('vite');
+  const emitted = [];
+  for (const { path, specifier } of entriesOf(p)) {
+    if (path === '.' || path === './node') continue;
+    const page = join(folder, 'weights.js');
+    writeFileSync(
+      page,
+      `import * as weights from '${specifier}';\nfor (const url of Object.values(weights)) console.log(url().href);\n`,
+    );
+    const { output } = await build({
+      root: folder,
+      configFile: false,
+      logLevel: 'silent',
+      build: { write: false, rollupOptions: { input: page } },
+    });
+    const files = output.flatMap(({ fileName, names }) => (fileName.endsWith('.tza') ? names : []));
+    const one = path.startsWith('./rt_') ? [`${path.slice(2)}.tza`] : undefined;
+    verdicts.expect(
+      one ? String(files) === String(one) : files.length === (path === './large' ? 3 : 1),
+      `${specifier}: Vite emits ${files.join(', ') || 'no archive'}.`,
+    );
+    emitted.push(...files);
+  }
+  const archives = readdirSync(join(folder, 'node_modules', p.name, 'weights')).filter((name) => name.endsWith('.tza'));
+  verdicts.expect(
+    String(emitted.sort()) === String(archives.sort()),
+    `${p.name}: its entries lead to ${emitted.length} archives, and it has ${archives.length}.`,
+  );
+  verdicts.table.push(`Vite, ${p.name}: ${emitted.length} archives, each with an entry that emits no other but /large`);
+}
+
 export async function checkPublished() {
   const verdicts = new Verdicts();
   const consumer = await installPacked();
@@ -176,6 +213,7 @@ export async function checkPublished() {
     await checkTypesResolve(p, verdicts);
     checkFiles(p, consumer, verdicts);
     checkDirectives(p, consumer, verdicts);
+    await checkWeightFiles(p, consumer, verdicts);
   }
   await checkConsumer(
     { name: 'nodenext', module: 'NodeNext', resolution: 'NodeNext', types: ['@webgpu/types'] },

@@ -1,5 +1,3 @@
-// Bundlers find an asset by the text "new URL('…', import.meta.url)": the path must stand in it as a literal.
-
 /**
  * Address of `rt_hdr_calb_cnrm_large.tza` (7.70 MB): HDR colour with albedo and normal that are free of noise: the
  * network of the quality `best`, after the two others have removed the noise of the guides. Nothing is downloaded.

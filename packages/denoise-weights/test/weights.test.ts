@@ -5,12 +5,12 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { writeWeights } from '../scripts/weights.mjs';
-import * as base from '../src/base';
+import manifest from '../package.json' with { type: 'json' };
+import { baseUrl } from '../src/base';
 import { WEIGHT_ARCHIVES, type WeightArchiveName } from '../src/index';
-import * as large from '../src/large';
-import * as ldr from '../src/ldr';
+import { largeUrl } from '../src/large';
 import { WeightsError, readWeights } from '../src/node';
-import * as small from '../src/small';
+import { smallUrl } from '../src/small';
 
 const own = fileURLToPath(new URL('..', import.meta.url));
 const names = Object.keys(WEIGHT_ARCHIVES) as WeightArchiveName[];
@@ -48,10 +48,25 @@ describe('the archives', () => {
 });
 
 describe('addresses', () => {
-  const addresses = [small, base, large, ldr].flatMap((entry) => Object.values(entry).map((url) => url()));
+  const entries = Object.values(manifest.exports).flatMap((entry) =>
+    typeof entry === 'string' ? [] : [entry['@glanz/source']],
+  );
 
-  it('lead to each archive once', () => {
-    const found = addresses.map((url) => createHash('sha256').update(readFileSync(url)).digest('hex'));
+  it('lead to each archive once', async () => {
+    const found: string[] = [];
+    for (const source of entries) {
+      const exported = (await import(new URL(`../${source}`, import.meta.url).href)) as Record<string, unknown>;
+      for (const [name, value] of Object.entries(exported))
+        if (/^(url|\w+Url)$/.test(name)) {
+          const bytes = readFileSync((value as () => URL)());
+          found.push(createHash('sha256').update(bytes).digest('hex'));
+          // An entry that has the name of an archive leads to that one.
+          if (name === 'url')
+            expect((value as () => URL)().pathname).toBe(
+              new URL(`../weights/${source.slice(6, -3)}.tza`, import.meta.url).pathname,
+            );
+        }
+    }
     expect(found.sort()).toEqual(
       Object.values(WEIGHT_ARCHIVES)
         .map(({ sha256 }) => sha256)
@@ -60,9 +75,9 @@ describe('addresses', () => {
   });
 
   it('are those of the qualities', () => {
-    expect(small.smallUrl().href).toMatch(/\/weights\/rt_hdr_alb_nrm_small\.tza$/);
-    expect(base.baseUrl().href).toMatch(/\/weights\/rt_hdr_alb_nrm\.tza$/);
-    expect(large.largeUrl().href).toMatch(/\/weights\/rt_hdr_calb_cnrm_large\.tza$/);
+    expect(smallUrl().href).toMatch(/\/weights\/rt_hdr_alb_nrm_small\.tza$/);
+    expect(baseUrl().href).toMatch(/\/weights\/rt_hdr_alb_nrm\.tza$/);
+    expect(largeUrl().href).toMatch(/\/weights\/rt_hdr_calb_cnrm_large\.tza$/);
   });
 });
 
