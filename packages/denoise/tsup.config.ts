@@ -5,4 +5,5 @@ export default glanzPackage({
   cpu: 'src/cpu/index.ts',
   film: 'src/film/index.ts',
   temporal: 'src/temporal/index.ts',
+  tune: 'src/tune/index.ts',
 });

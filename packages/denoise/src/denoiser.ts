@@ -1,10 +1,10 @@
-import { DenoiseError } from './error';
 import { Chain, makeStages, type Stage } from './chain';
+import { checkOptions, readNetworks, shapesOf, type NetworkOf } from './configure';
+import { DenoiseError } from './error';
+import { lossOf } from './gpu';
 import { checkSize } from './images';
 import { JobCursor, costOf } from './jobs';
-import { chooseShape, withGroups } from './kernels/choose-shape';
-import type { KernelShape } from './kernels/shapes';
-import { readNetwork, type Layer, type Network } from './network';
+import type { PlanOptions } from './plan';
 import type {
   DenoiseImages,
   DenoiseOptions,
@@ -14,56 +14,6 @@ import type {
   DenoiserStorage,
 } from './options';
 import { Pace } from './pace';
-
-const INPUTS: readonly DenoiserInput[] = ['hdr', 'ldr', 'srgb', 'albedo', 'normal'];
-
-/** Adapters that compute on the CPU. */
-const isSoftware = ({ adapterInfo }: GPUDevice): boolean =>
-  adapterInfo?.isFallbackAdapter === true ||
-  /swiftshader|llvmpipe|lavapipe|basic render|warp/i.test(
-    `${adapterInfo?.architecture} ${adapterInfo?.device} ${adapterInfo?.description}`,
-  );
-
-function checkOptions({ input = 'hdr', storage = 'f16', maxMemory = 1, maxSubmitMs = 1 }: DenoiserOptions): void {
-  if (!INPUTS.includes(input))
-    throw new DenoiseError('denoise/option', `input "${String(input)}" is unknown: use ${INPUTS.join(', ')}.`);
-  if (storage !== 'f16' && storage !== 'f32')
-    throw new DenoiseError('denoise/option', `storage "${String(storage)}" is unknown: use f16 or f32.`);
-  for (const [name, value] of Object.entries({ maxMemory, maxSubmitMs }))
-    if (!(value > 0)) throw new DenoiseError('denoise/option', `${name} ${value} is not a positive number.`);
-}
-
-/**
- * The networks that are to be evaluated, in order.
- *
- * @throws {DenoiseError} `denoise/weights`.
- */
-function readNetworks(
-  weights: Uint8Array | ArrayBuffer,
-  { input = 'hdr', prefilter = {} }: DenoiserOptions,
-): (readonly [DenoiserInput, Network])[] {
-  const main = readNetwork(weights);
-  const networks: [DenoiserInput, Network][] = [];
-  const guides = { albedo: 6, normal: 9 } as const;
-  for (const kind of ['albedo', 'normal'] as const) {
-    const bytes = prefilter[kind];
-    if (!bytes) continue;
-    if (main.channels < guides[kind])
-      throw new DenoiseError(
-        'denoise/option',
-        `prefilter.${kind} is given, and the network takes ${main.channels} channels: it has no such guide.`,
-      );
-    networks.push([kind, readNetwork(bytes)]);
-  }
-  networks.push([input, main]);
-  for (const [kind, { channels }] of networks)
-    if ((kind === 'albedo' || kind === 'normal') && channels !== 3)
-      throw new DenoiseError(
-        'denoise/weights',
-        `A network that denoises ${kind} takes 3 channels; this one takes ${channels}. Use ${kind === 'albedo' ? 'rt_alb' : 'rt_nrm'}.`,
-      );
-  return networks;
-}
 
 /**
  * Denoises images in GPU buffers by a network of Open Image Denoise. One network; images of any size, one at a time, later
@@ -77,7 +27,7 @@ export class Denoiser {
   readonly #device: GPUDevice;
   readonly #stages: readonly Stage[];
   readonly #maxMemory: number;
-  readonly #shapeOf: (layer: Layer, width: number, height: number) => KernelShape;
+  readonly #shapeOf: PlanOptions['shapeOf'];
   readonly #pace: Pace;
   /** Rejects when the device is lost. */
   readonly #lost: Promise<never>;
@@ -89,30 +39,15 @@ export class Denoiser {
   #last: Promise<unknown> = Promise.resolve();
   #destroyed = false;
 
-  private constructor(
-    device: GPUDevice,
-    networks: readonly (readonly [DenoiserInput, Network])[],
-    options: DenoiserOptions,
-  ) {
+  private constructor(device: GPUDevice, networks: readonly NetworkOf[], options: DenoiserOptions) {
     this.#device = device;
     this.input = options.input ?? 'hdr';
     this.storage = options.storage ?? 'f16';
     this.#maxMemory = options.maxMemory ?? 2 ** 30;
     this.#pace = new Pace(options.maxSubmitMs ?? 8);
     this.#stages = makeStages(device, networks, this.storage);
-    const software = isSoftware(device);
-    this.#shapeOf = (layer, width, height) => {
-      const family = options.shapeOf?.(layer, width, height);
-      const shape = family && withGroups(family, layer);
-      return shape ?? chooseShape(layer, width, height, software);
-    };
-    this.#lost = device.lost.then(({ message }) => {
-      throw new DenoiseError(
-        'denoise/device',
-        `The GPU device was lost: ${message || 'no reason is known'}. Create another device, and a Denoiser on it.`,
-      );
-    });
-    this.#lost.catch(() => undefined);
+    this.#shapeOf = shapesOf(device, options.shapeOf);
+    this.#lost = lossOf(device);
   }
 
   /**

@@ -7,6 +7,7 @@ import { DenoiseError } from './error';
 export const MAP_READ = 0x1;
 export const COPY_SRC = 0x4;
 export const COPY_DST = 0x8;
+export const QUERY_RESOLVE = 0x200;
 export const UNIFORM = 0x40;
 export const STORAGE = 0x80;
 const COMPUTE = 0x4;
@@ -21,6 +22,18 @@ export type BindingKind = 'uniform' | 'dynamic' | 'read' | 'write';
 export interface Kernel {
   readonly pipeline: GPUComputePipeline;
   readonly layout: GPUBindGroupLayout;
+}
+
+/** Rejects with `denoise/device` when the device is lost. */
+export function lossOf(device: GPUDevice): Promise<never> {
+  const lost = device.lost.then(({ message }) => {
+    throw new DenoiseError(
+      'denoise/device',
+      `The GPU device was lost: ${message || 'no reason is known'}. Create another device, and a Denoiser on it.`,
+    );
+  });
+  lost.catch(() => undefined);
+  return lost;
 }
 
 /**

@@ -42,9 +42,9 @@ export interface DenoiserOptions {
   /** Ends the creation with the signal's reason. */
   readonly signal?: AbortSignal;
   /**
-   * For measurements: how the threads of a layer of `width` × `height` pixels share its work; `undefined`, or what does
-   * not fit into workgroup memory, for the usual choice. Results do not depend on it: each sum is computed in the same
-   * order.
+   * How the threads of a layer of `width` × `height` pixels share its work, see `tuneShapes` of `@glanz/denoise/tune`;
+   * `undefined`, or what does not fit into workgroup memory, for the usual choice. Results do not depend on it: each sum
+   * is computed in the same order.
    */
   readonly shapeOf?: (layer: LayerSize, width: number, height: number) => KernelFamily | undefined;
 }

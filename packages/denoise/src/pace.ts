@@ -27,3 +27,20 @@ export class Pace {
     else if (work >= 0.5 * this.#work || milliseconds > this.budget) this.#work = Math.max(possible, 1e6);
   }
 }
+
+/** Milliseconds between two returns to the event loop. */
+const SLICE_MS = 12;
+
+/**
+ * Shaders are composed and weights packed on the calling thread, which has other things to do as well.
+ *
+ * @returns What returns to the event loop where a slice of time is over.
+ */
+export function pauses(): () => Promise<void> {
+  let since = performance.now();
+  return async () => {
+    if (performance.now() - since < SLICE_MS) return;
+    await new Promise((resolve) => setTimeout(resolve));
+    since = performance.now();
+  };
+}

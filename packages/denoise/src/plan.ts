@@ -124,7 +124,8 @@ function cutRows<T>(rows: number, make: (from: number, to: number) => T | undefi
   return pieces;
 }
 
-function planLayer(
+/** How a layer is computed with a shape; `undefined` where a row of workgroups does not fit into bindings. */
+export function planLayer(
   layer: Layer,
   shape: KernelShape,
   direct: TensorPlan,

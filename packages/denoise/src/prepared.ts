@@ -1,43 +1,16 @@
-import { ALIGNMENT, COPY_DST, STORAGE, UNIFORM, bindGroup, filledBuffer, type Kernel, type Window } from './gpu';
+import { ALIGNMENT, COPY_DST, STORAGE, UNIFORM, bindGroup, type Kernel, type Window } from './gpu';
 import type { BoundImages } from './images';
 import type { Job } from './jobs';
-import { layerStruct, tileStruct } from './kernels/layouts';
+import { tileStruct } from './kernels/layouts';
 import type { TiledPlan } from './memory';
 import type { NetworkKernels, Prelude } from './network-kernels';
-import { ENCODE_ROWS, type LayerPlan, type Plan, type Strip, type TensorWindow } from './plan';
+import { pauses } from './pace';
+import { ENCODE_ROWS, type Plan, type TensorWindow } from './plan';
+import { readyLayer, type ReadyLayer } from './ready-layer';
 import type { Tiling } from './tiles';
 
 /** Multiply-adds that take as long as encoding a pixel, roughly. */
 const ENCODE_COST = 200;
-
-/** Milliseconds between two returns to the event loop. */
-const SLICE_MS = 12;
-
-/**
- * Shaders are composed and weights packed on the calling thread, which has other things to do as well.
- *
- * @returns What returns to the event loop where a slice of time is over.
- */
-function pauses(): () => Promise<void> {
-  let since = performance.now();
-  return async () => {
-    if (performance.now() - since < SLICE_MS) return;
-    await new Promise((resolve) => setTimeout(resolve));
-    since = performance.now();
-  };
-}
-
-/** A layer that is ready to be dispatched. */
-interface ReadyLayer {
-  readonly plan: LayerPlan;
-  readonly kernel: Kernel;
-  readonly strips: readonly {
-    readonly strip: Strip;
-    readonly resources: Readonly<Record<number, Window>>;
-    /** `undefined` for the last layer, whose bindings depend on the caller's images. */
-    readonly group: GPUBindGroup | undefined;
-  }[];
-}
 
 /** Values as uniforms of 256 bytes each, for dynamic offsets. */
 function rowNumbers(count: number): ArrayBuffer {
@@ -49,7 +22,6 @@ function rowNumbers(count: number): ArrayBuffer {
 /** A network, ready for images of a size. Values between layers are in buffers that others may use at other times. */
 export class Prepared {
   readonly #device: GPUDevice;
-  readonly #kernels: NetworkKernels;
   readonly #prelude: Prelude;
   readonly #buffers: readonly GPUBuffer[];
   readonly #own: GPUBuffer[] = [];
@@ -64,14 +36,12 @@ export class Prepared {
 
   private constructor(
     device: GPUDevice,
-    kernels: NetworkKernels,
     prelude: Prelude,
     size: { readonly width: number; readonly height: number },
     { plan, tiling }: TiledPlan,
     buffers: readonly GPUBuffer[],
   ) {
     this.#device = device;
-    this.#kernels = kernels;
     this.#prelude = prelude;
     this.plan = plan;
     this.tiling = tiling;
@@ -100,7 +70,7 @@ export class Prepared {
     tiled: TiledPlan,
     buffers: readonly GPUBuffer[],
   ): Promise<Prepared> {
-    const prepared = new Prepared(device, kernels, await kernels.prelude(), size, tiled, buffers);
+    const prepared = new Prepared(device, await kernels.prelude(), size, tiled, buffers);
     try {
       const pause = pauses();
       const compiled: Promise<Kernel>[] = [];
@@ -110,7 +80,8 @@ export class Prepared {
       }
       await Promise.all(compiled);
       for (const layer of tiled.plan.layers) {
-        prepared.#layers.push(await prepared.#ready(layer));
+        const kernel = await kernels.convolution(layer);
+        prepared.#layers.push(readyLayer(device, kernels, kernel, layer, buffers, prepared.#rows, prepared.#own));
         await pause();
       }
     } catch (error) {
@@ -122,43 +93,6 @@ export class Prepared {
 
   #window({ slot, offset, size }: TensorWindow): Window {
     return { buffer: this.#buffers[slot]!, offset, size };
-  }
-
-  async #ready(plan: LayerPlan): Promise<ReadyLayer> {
-    const kernel = await this.#kernels.convolution(plan);
-    const { buffer: weights, packed } = this.#kernels.weights(plan);
-    const stride = Math.ceil(layerStruct.size / ALIGNMENT) * ALIGNMENT;
-    const uniforms = new ArrayBuffer(stride * plan.strips.length);
-    for (const [i, { direct, up, result }] of plan.strips.entries()) {
-      const bytes = layerStruct.allocate();
-      layerStruct.write(bytes, 0, {
-        size: [plan.width, plan.height],
-        up_quads: plan.up?.quads ?? 0,
-        direct_quads: plan.direct.quads,
-        up_base: up?.base ?? 0,
-        direct_base: direct.base,
-        result_base: result?.base ?? 0,
-        result_quads: plan.result?.quads ?? 1,
-        output_quads: packed.outputQuads,
-        up_weights: packed.upAt,
-        direct_weights: packed.directAt,
-      });
-      new Uint8Array(uniforms).set(new Uint8Array(bytes), i * stride);
-    }
-    const layer = filledBuffer(this.#device, `denoise ${plan.layer.name}`, uniforms, UNIFORM);
-    this.#own.push(layer);
-    const strips = plan.strips.map((strip, i) => {
-      const resources: Record<number, Window> = {
-        0: { buffer: layer, offset: i * stride, size: layerStruct.size },
-        1: { buffer: this.#rows, offset: 0, size: 16 },
-        2: { buffer: weights, offset: 0, size: weights.size },
-        3: this.#window(strip.direct),
-        ...(strip.up ? { 4: this.#window(strip.up) } : {}),
-        ...(strip.result ? { 5: this.#window(strip.result) } : {}),
-      };
-      return { strip, resources, group: strip.result && bindGroup(this.#device, kernel, resources) };
-    });
-    return { plan, kernel, strips };
   }
 
   /** Bytes on the GPU, without the values between layers. */

@@ -1,5 +1,6 @@
 import type { Layer } from '../network';
 import {
+  shapeName,
   stagedUpChannels,
   threadsOf,
   tileHeight,
@@ -26,6 +27,18 @@ export const FAMILIES: readonly (readonly [family: KernelFamily, efficiency: num
   [{ threadsX: 2, threadsY: 8, rows: 1, outputs: 4, maxGroups: 4 }, 0.5],
 ];
 
+/** What is measured besides: seldom the best, and then by little. */
+const TRIALS: typeof FAMILIES = [
+  [{ threadsX: 16, threadsY: 4, rows: 2, outputs: 8, maxGroups: 2 }, 0.95],
+  [{ threadsX: 8, threadsY: 4, rows: 2, outputs: 8, maxGroups: 2 }, 0.9],
+  [{ threadsX: 8, threadsY: 8, rows: 2, outputs: 8, maxGroups: 1 }, 0.9],
+  [{ threadsX: 8, threadsY: 4, rows: 4, outputs: 4, maxGroups: 4 }, 0.95],
+  [{ threadsX: 16, threadsY: 4, rows: 4, outputs: 4, maxGroups: 4 }, 0.95],
+  [{ threadsX: 4, threadsY: 8, rows: 2, outputs: 8 }, 0.9],
+  [{ threadsX: 8, threadsY: 8, rows: 2, outputs: 4 }, 0.85],
+  [{ threadsX: 16, threadsY: 4, rows: 2, outputs: 4 }, 0.85],
+];
+
 /** The last layer has three channels. */
 const FAMILY_LAST: KernelFamily = { threadsX: 8, threadsY: 8, rows: 2, outputs: 4 };
 
@@ -33,6 +46,13 @@ const FAMILY_LAST: KernelFamily = { threadsX: 8, threadsY: 8, rows: 2, outputs: 
  * On CPUs registers are few and workgroups are loops: small sums, and few threads that wait for each other.
  */
 const FAMILY_SOFTWARE: KernelFamily = { threadsX: 4, threadsY: 2, rows: 2, outputs: 4 };
+
+/** What is measured on CPUs besides; shaders of larger sums take them minutes to compile. */
+const SOFTWARE_TRIALS: typeof FAMILIES = [
+  [{ threadsX: 2, threadsY: 4, rows: 2, outputs: 4 }, 1],
+  [{ threadsX: 4, threadsY: 2, rows: 2, outputs: 4, weights: 'storage' }, 1],
+  [{ threadsX: 4, threadsY: 4, rows: 1, outputs: 4, maxGroups: 2 }, 1],
+];
 
 /**
  * The number of groups that computes the fewest channels in vain; the largest of those. `undefined` where a workgroup would
@@ -83,6 +103,25 @@ function estimate(layer: Layer, shape: KernelShape, efficiency: number, width: n
   return waves * (compute + (quads * STAGING) / together);
 }
 
+/** Shapes for a layer of `width` × `height` pixels, the best by the model first; none twice. */
+function rank(
+  families: readonly (readonly [KernelFamily, number])[],
+  layer: Layer,
+  width: number,
+  height: number,
+): KernelShape[] {
+  const ranked: (readonly [shape: KernelShape, cycles: number])[] = [];
+  for (const [family, efficiency] of families) {
+    const shape = withGroups(family, layer);
+    if (shape) ranked.push([shape, estimate(layer, shape, efficiency, width, height)]);
+  }
+  const names = new Set<string>();
+  return ranked
+    .sort(([, a], [, b]) => a - b)
+    .map(([shape]) => shape)
+    .filter((shape) => !names.has(shapeName(shape)) && names.add(shapeName(shape)));
+}
+
 /**
  * The shape for a layer of `width` × `height` pixels.
  *
@@ -91,14 +130,19 @@ function estimate(layer: Layer, shape: KernelShape, efficiency: number, width: n
 export function chooseShape(layer: Layer, width: number, height: number, software: boolean): KernelShape {
   if (software) return withGroups(FAMILY_SOFTWARE, layer)!;
   if (layer.channels <= 4) return withGroups(FAMILY_LAST, layer)!;
-  let best: KernelShape | undefined;
-  let least = Infinity;
-  for (const [family, efficiency] of FAMILIES) {
-    const shape = withGroups(family, layer);
-    const cycles = shape ? estimate(layer, shape, efficiency, width, height) : Infinity;
-    if (!(cycles < least)) continue;
-    best = shape;
-    least = cycles;
-  }
-  return best!;
+  return rank(FAMILIES, layer, width, height)[0]!;
+}
+
+/** The shape that {@link chooseShape} chooses, then up to `count` − 1 others that are worth a measurement. */
+export function candidateShapes(
+  layer: Layer,
+  width: number,
+  height: number,
+  software: boolean,
+  count: number,
+): KernelShape[] {
+  const usual = chooseShape(layer, width, height, software);
+  const families = software ? SOFTWARE_TRIALS : layer.channels <= 4 ? [] : [...FAMILIES, ...TRIALS];
+  const others = rank(families, layer, width, height).filter((shape) => shapeName(shape) !== shapeName(usual));
+  return [usual, ...others].slice(0, count);
 }

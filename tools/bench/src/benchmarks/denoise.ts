@@ -1,4 +1,5 @@
 import { Denoiser, type DenoiserOptions, type DenoiserStorage, type KernelFamily } from '@glanz/denoise';
+import { shapesFrom, tuneShapes, type TunedShapes } from '@glanz/denoise/tune';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
@@ -80,6 +81,11 @@ class Subject {
     }
   }
 
+  /** Measures shapes. */
+  tune(network: NetworkSize, storage: DenoiserStorage): Promise<TunedShapes> {
+    return tuneShapes(this.#device, randomArchive(network), { storage, width: this.width, height: this.height });
+  }
+
   destroy(): void {
     for (const buffer of Object.values(this.#buffers)) buffer.destroy();
   }
@@ -115,6 +121,7 @@ export const benchmark: Benchmark = {
     sizes: { type: 'string', help: 'of 128,512,1080p,2160p; default 512,1080p, on software GPUs 128' },
     storage: { type: 'string', help: 'f16 (default) or f32' },
     variants: { type: 'string', help: '"no": only the usual kernels; or numbers of variants, 0,3,…' },
+    tune: { type: 'string', help: '"yes": besides, with the shapes that tuneShapes finds within its default time' },
     deadline: { type: 'string', help: 'seconds after which no further variant is tried; default 480' },
   },
   async run({ log, quick, gpu, values }) {
@@ -199,6 +206,18 @@ export const benchmark: Benchmark = {
           );
         }
       });
+      if (values['tune'] === 'yes') {
+        const before = performance.now();
+        const shapes = await subject.tune(network, storage);
+        figures.push(timed(`${key}: tuneShapes`, 'ms', [performance.now() - before]));
+        details.push({ network, size, shapes });
+        for (const [layer, family] of Object.entries(shapes)) log(`  ${layer}: ${familyName(family)}`);
+        await subject.with(network, { storage, shapeOf: shapesFrom(shapes) }, (run) =>
+          whole(`${key}, tuned`, key, run),
+        );
+        // Once more, for what changes from one moment to another.
+        await subject.with(network, { storage }, (run) => whole(`${key}, not tuned, again`, key, run));
+      }
       subject.destroy();
     }
 

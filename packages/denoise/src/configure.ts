@@ -1,0 +1,74 @@
+import { DenoiseError } from './error';
+import { chooseShape, withGroups } from './kernels/choose-shape';
+import { readNetwork, type Network } from './network';
+import type { DenoiserInput, DenoiserOptions } from './options';
+import type { PlanOptions } from './plan';
+
+/** A network, and what it denoises. */
+export type NetworkOf = readonly [input: DenoiserInput, network: Network];
+
+const INPUTS: readonly DenoiserInput[] = ['hdr', 'ldr', 'srgb', 'albedo', 'normal'];
+
+/** Adapters that compute on the CPU. */
+export const isSoftware = ({ adapterInfo }: GPUDevice): boolean =>
+  adapterInfo?.isFallbackAdapter === true ||
+  /swiftshader|llvmpipe|lavapipe|basic render|warp/i.test(
+    `${adapterInfo?.architecture} ${adapterInfo?.device} ${adapterInfo?.description}`,
+  );
+
+/** @throws {DenoiseError} `denoise/option`. */
+export function checkOptions({
+  input = 'hdr',
+  storage = 'f16',
+  maxMemory = 1,
+  maxSubmitMs = 1,
+}: DenoiserOptions): void {
+  if (!INPUTS.includes(input))
+    throw new DenoiseError('denoise/option', `input "${String(input)}" is unknown: use ${INPUTS.join(', ')}.`);
+  if (storage !== 'f16' && storage !== 'f32')
+    throw new DenoiseError('denoise/option', `storage "${String(storage)}" is unknown: use f16 or f32.`);
+  for (const [name, value] of Object.entries({ maxMemory, maxSubmitMs }))
+    if (!(value > 0)) throw new DenoiseError('denoise/option', `${name} ${value} is not a positive number.`);
+}
+
+/**
+ * The networks that are to be evaluated, in order.
+ *
+ * @throws {DenoiseError} `denoise/weights`.
+ */
+export function readNetworks(
+  weights: Uint8Array | ArrayBuffer,
+  { input = 'hdr', prefilter = {} }: DenoiserOptions,
+): NetworkOf[] {
+  const main = readNetwork(weights);
+  const networks: NetworkOf[] = [];
+  const guides = { albedo: 6, normal: 9 } as const;
+  for (const kind of ['albedo', 'normal'] as const) {
+    const bytes = prefilter[kind];
+    if (!bytes) continue;
+    if (main.channels < guides[kind])
+      throw new DenoiseError(
+        'denoise/option',
+        `prefilter.${kind} is given, and the network takes ${main.channels} channels: it has no such guide.`,
+      );
+    networks.push([kind, readNetwork(bytes)]);
+  }
+  networks.push([input, main]);
+  for (const [kind, { channels }] of networks)
+    if ((kind === 'albedo' || kind === 'normal') && channels !== 3)
+      throw new DenoiseError(
+        'denoise/weights',
+        `A network that denoises ${kind} takes 3 channels; this one takes ${channels}. Use ${kind === 'albedo' ? 'rt_alb' : 'rt_nrm'}.`,
+      );
+  return networks;
+}
+
+/** How threads share layers: what the caller asks for where it fits, the usual choice elsewhere. */
+export function shapesOf(device: GPUDevice, shapeOf: DenoiserOptions['shapeOf']): PlanOptions['shapeOf'] {
+  const software = isSoftware(device);
+  return (layer, width, height) => {
+    const family = shapeOf?.(layer, width, height);
+    const shape = family && withGroups(family, layer);
+    return shape ?? chooseShape(layer, width, height, software);
+  };
+}

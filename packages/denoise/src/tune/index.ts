@@ -1,0 +1,1 @@
+export { shapesFrom, tuneShapes, type TuneOptions, type TunedShapes } from './tune-shapes';
