@@ -145,6 +145,7 @@ export default defineConfig({
           { text: 'Command line', link: '/guide/command-line' },
           { text: 'CAD to web', link: '/guide/cad' },
           { text: 'Errors', link: '/guide/errors' },
+          { text: 'All configurations of a product', link: '/guide/configurations' },
           { text: 'A product shot', link: '/guide/product-shot' },
           { text: 'A configurator', link: '/guide/configurator' },
           { text: 'Performance', link: '/guide/performance' },

@@ -54,6 +54,8 @@ const COMMANDS = {
   glanz farm retry | cancel ID... | --all --redis URL
   glanz farm manifest BATCH --manifest FILE [...]
   glanz farm task BATCH [--image N] [...]
+  glanz farm serve --redis URL [--port N] [--host NAME]
+  glanz farm submit BATCH --openjd FILE [...]
 
   submit queues the images of a batch file, and work renders them, on any
   number of machines that see the store's folder. An image has an identity by
@@ -77,7 +79,12 @@ const COMMANDS = {
                         to another one. Default 30.
       --metrics         status: Prometheus text.
       --image N         task: render these images in this process, without a
-                        queue: 3, 0,4, 10-19. Default: all.
+                        queue: 3, 0,4, 10-19, or red/front. Default: all.
+      --part N          task: of an image in parts this one alone.
+      --openjd FILE     submit: write a job template of Open Job Description,
+                        whose tasks are glanz farm task, and queue nothing.
+      --port N          serve: a read-only page about the farm. Default 4180;
+      --host NAME       ... 127.0.0.1: nobody else can reach it.
       --manifest FILE   manifest: JSON of the images that are finished, in the
                         order of the batch; the exit status is 1 while some are
                         missing.

@@ -107,6 +107,22 @@ export function fileServer(folder: string): Server {
   });
 }
 
+/** Listens, on any free port for 0. @throws {CliError} `cli/port` */
+export async function listen(server: Server, port: number, host: string): Promise<void> {
+  await new Promise<void>((done, fail) => {
+    server.once('error', (cause: NodeJS.ErrnoException) =>
+      fail(
+        new CliError(
+          'cli/port',
+          `Port ${port} of ${host} cannot be used: ${cause.code === 'EADDRINUSE' ? 'something else listens there' : cause.message}; try --port 0.`,
+          { cause },
+        ),
+      ),
+    );
+    server.listen(port, host, done);
+  });
+}
+
 /**
  * `glanz serve`: the playground, from the package itself, until Ctrl-C. Gives the exit code.
  * @param folder What is served; default: the playground.
@@ -122,18 +138,7 @@ export async function serveCommand(
       'This copy of @glanz/cli lacks the playground: build it (npm run build) or install the package again.',
     );
   const server = fileServer(folder);
-  await new Promise<void>((done, fail) => {
-    server.once('error', (cause: NodeJS.ErrnoException) =>
-      fail(
-        new CliError(
-          'cli/port',
-          `Port ${port} of ${host} cannot be used: ${cause.code === 'EADDRINUSE' ? 'something else listens there' : cause.message}; try --port 0.`,
-          { cause },
-        ),
-      ),
-    );
-    server.listen(port, host, done);
-  });
+  await listen(server, port, host);
   const { port: actual } = server.address() as AddressInfo;
   const url = `http://${host.includes(':') ? `[${host}]` : host}:${actual}/`;
   if (json) io.stdout(jsonLine({ ok: true, url }));

@@ -10,6 +10,10 @@ const FARM_OPTIONS = {
   split: { type: 'string' },
   lock: { type: 'string' },
   image: { type: 'string' },
+  part: { type: 'string' },
+  openjd: { type: 'string' },
+  port: { type: 'string' },
+  host: { type: 'string' },
   manifest: { type: 'string' },
   metrics: { type: 'boolean' },
   'until-empty': { type: 'boolean' },
@@ -17,7 +21,17 @@ const FARM_OPTIONS = {
 } as const;
 
 /** What `glanz farm` can be followed by. */
-export const FARM_ACTIONS = ['submit', 'work', 'status', 'retry', 'cancel', 'task', 'manifest', 'renderer'] as const;
+export const FARM_ACTIONS = [
+  'submit',
+  'work',
+  'status',
+  'retry',
+  'cancel',
+  'task',
+  'manifest',
+  'serve',
+  'renderer',
+] as const;
 
 type Action = (typeof FARM_ACTIONS)[number];
 
@@ -35,8 +49,14 @@ export interface FarmCommand extends ReportOptions {
   readonly split: number | undefined;
   /** Seconds. */
   readonly lock: number | undefined;
-  /** Numbers of images, from 0. */
-  readonly images: readonly number[] | undefined;
+  /** Numbers of images, from 0, or their names as `imageName` has them; absent: all. */
+  readonly images: readonly (number | string)[] | undefined;
+  /** Of images in parts: this one alone, without the merge. */
+  readonly part: number | undefined;
+  /** A template to write instead of queueing. */
+  readonly openjd: string | undefined;
+  readonly port: number;
+  readonly host: string;
   readonly manifest: string | undefined;
   readonly metrics: boolean;
   readonly untilEmpty: boolean;
@@ -49,9 +69,11 @@ export interface FarmCommand extends ReportOptions {
 
 /** Where the store is unless `--store` names another folder. */
 export const DEFAULT_STORE = '.glanz-farm';
+/** Where `glanz farm serve` listens. */
+const DEFAULT_PORT = 4180;
 
 const BATCH: readonly Action[] = ['submit', 'task', 'manifest'];
-const REDIS: readonly Action[] = ['work', 'status', 'retry', 'cancel'];
+const REDIS: readonly Action[] = ['work', 'status', 'retry', 'cancel', 'serve'];
 
 /**
  * Reads the arguments after `farm`.
@@ -68,14 +90,14 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
     );
   const is = action as Action;
   const warnings: string[] = [];
-  const { redis: address, queue, store, split, lock, image, manifest, ...rest } = given;
+  const { redis: address, queue, store, split, lock, image, part, openjd, port, host, manifest, ...rest } = given;
   const values = presentNames(rest as RenderValues, (text) => warnings.push(text));
   const redis = address ?? (environment.GLANZ_REDIS || undefined);
   if (BATCH.includes(is) && args.length !== 1)
     throw usage(`glanz farm ${is} takes one batch file: glanz farm ${is} batch.json. See glanz help farm.`);
   if (REDIS.includes(is) && redis === undefined)
     throw usage(`glanz farm ${is} needs --redis redis://HOST:6379, or GLANZ_REDIS in the environment.`);
-  if ((is === 'work' || is === 'status') && args.length > 0)
+  if ((is === 'work' || is === 'status' || is === 'serve') && args.length > 0)
     throw usage(`glanz farm ${is} takes no files: what is "${args[0]}"?`);
   if ((is === 'retry' || is === 'cancel') && args.length > 0 === (given.all ?? false))
     throw usage(`glanz farm ${is} takes ids of jobs, which glanz farm status lists, or --all.`);
@@ -92,7 +114,11 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
     store: store ?? join('.', DEFAULT_STORE),
     split: whole('split', split, 16, 2147483647),
     lock: whole('lock', lock, 1, 3600),
-    images: image === undefined ? undefined : numbersOf(image),
+    images: image === undefined ? undefined : imagesOf(image),
+    part: whole('part', part, 0, 1e6),
+    openjd,
+    port: whole('port', port, 0, 65535) ?? DEFAULT_PORT,
+    host: host ?? '127.0.0.1',
     manifest,
     metrics: given.metrics ?? false,
     untilEmpty: given['until-empty'] ?? false,
@@ -112,13 +138,19 @@ function whole(name: string, text: string | undefined, min: number, max: number)
   return value;
 }
 
-/** `3`, `0,4`, `10-19`. */
-function numbersOf(text: string): number[] {
-  const out: number[] = [];
+/** `3`, `0,4`, `10-19`; `red/front`. */
+function imagesOf(text: string): (number | string)[] {
+  const out: (number | string)[] = [];
   for (const part of text.split(',')) {
+    if (part.includes('/')) {
+      out.push(part.trim());
+      continue;
+    }
     const [, from, to = from] = /^\s*(\d{1,9})(?:-(\d{1,9}))?\s*$/.exec(part) ?? [];
     if (from === undefined || Number(to) < Number(from) || Number(to) - Number(from) > 1e6)
-      throw usage(`--image must be numbers from 0, such as 3 or 0,4 or 10-19, not "${text}".`);
+      throw usage(
+        `--image must be numbers from 0, such as 3 or 0,4 or 10-19, or names such as red/front, not "${text}".`,
+      );
     for (let i = Number(from); i <= Number(to); i++) out.push(i);
   }
   return out;

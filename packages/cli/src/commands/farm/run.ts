@@ -3,15 +3,15 @@ import { farmMetrics, FolderStore, openFarmQueue, serveRenderer, type FarmQueue 
 import type { Backend } from '../../backend';
 import { EXIT } from '../../errors';
 import { farmRenderer } from '../../farm/job-renderer';
-import { FarmPlan } from '../../farm/plan';
 import type { CliIo } from '../../io';
-import type { RenderCommandOptions } from '../../options';
 import { duration, ProgressReporter } from '../../progress';
-import { SceneLoader } from '../../render/scene';
 import { version } from '../../version';
 import { jsonLine, visible } from '../../visible';
-import { noVariants, renderCommand } from '../render';
+import { renderCommand } from '../render';
 import { writeManifest } from './manifest';
+import { writeTemplate } from './template';
+import { openPlan } from './open-plan';
+import { serveFarm } from './serve';
 import type { FarmCommand } from './parse';
 import { taskCommand } from './task';
 import { workCommand } from './work';
@@ -22,6 +22,7 @@ export async function farmCommand(command: FarmCommand, io: CliIo, backend: Back
   for (const text of command.warnings) progress.warning(text);
   switch (command.action) {
     case 'submit':
+      if (command.openjd !== undefined) return writeTemplate(command, io, backend, progress);
       return command.redis === undefined
         ? renderHere(command, io, backend)
         : submit(command, command.redis, io, backend, progress);
@@ -36,6 +37,7 @@ export async function farmCommand(command: FarmCommand, io: CliIo, backend: Back
     default:
       return withQueue(command, async (queue) => {
         if (command.action === 'status') return status(command, queue, io);
+        if (command.action === 'serve') return serveFarm(command, queue, io);
         const ids = command.all ? undefined : command.args;
         if (command.action === 'retry') {
           const retried = await queue.retry(ids);
@@ -89,35 +91,6 @@ async function renderHere(command: FarmCommand, io: CliIo, backend: Backend): Pr
   );
   if (json) io.stdout(jsonLine(result ?? { ok: false }));
   return exitCode;
-}
-
-/** Reads the batch and checks all of it. */
-async function openPlan(
-  { args, values, outputRoot, split }: FarmCommand,
-  io: CliIo,
-  backend: Backend,
-  progress: ProgressReporter,
-): Promise<FarmPlan> {
-  const loader = new SceneLoader(backend, io.cwd);
-  const warned = new Set<string>();
-  const plan = await FarmPlan.open({
-    batch: args[0] as string,
-    cwd: io.cwd,
-    values,
-    outputRoot,
-    split,
-    async variantsOf(options: RenderCommandOptions) {
-      progress.stage('load model');
-      const { variants = [] } = (await loader.load(options, new AbortController().signal)).scene;
-      if (variants.length === 0) throw noVariants(options);
-      return variants;
-    },
-    warn(text) {
-      if (!warned.has(text)) progress.warning(text);
-      warned.add(text);
-    },
-  });
-  return plan;
 }
 
 async function submit(

@@ -1,10 +1,11 @@
 import { rm } from 'node:fs/promises';
 import { hostname } from 'node:os';
 import { resolve } from 'node:path';
-import { FolderStore, type FarmJob, type JobRenderer, type JobResult } from '@glanz/farm';
+import { FolderStore, type FarmJob, type FarmRequest, type JobRenderer, type JobResult } from '@glanz/farm';
 import type { Backend } from '../../backend';
 import { EXIT, EXIT_OF_INTERRUPT } from '../../errors';
 import { farmRenderer } from '../../farm/job-renderer';
+import { imageName } from '../../farm/openjd';
 import type { FarmPlan } from '../../farm/plan';
 import type { CliIo, Interrupt } from '../../io';
 import { usage } from '../../options';
@@ -24,9 +25,9 @@ export async function taskCommand(
   backend: Backend,
   progress: ProgressReporter,
 ): Promise<number> {
-  const { images, json, quiet, gpus } = command;
+  const { images, part, json, quiet, gpus } = command;
   const total = await plan.check();
-  const beyond = images?.find((index) => index >= total);
+  const beyond = images?.find((image) => typeof image === 'number' && image >= total);
   if (beyond !== undefined) throw usage(`--image ${beyond}: the batch has ${total} images, from 0 to ${total - 1}.`);
   const store = new FolderStore(resolve(io.cwd, command.store));
   const stop = new AbortController();
@@ -40,28 +41,39 @@ export async function taskCommand(
   let rendered = 0;
   let done = 0;
   try {
-    for await (const { index, id, requests, paths } of plan.images(store)) {
-      if (wanted && !wanted.has(index)) continue;
+    for await (const image of plan.images(store)) {
+      const { index, id, requests, paths } = image;
+      const name = imageName(image);
+      if (wanted && !wanted.delete(index) && !wanted.delete(name)) continue;
       let result = await store.result(id);
       const merge = requests[0]?.job.merge;
-      for (const job of result ? [] : [...requests.map((request) => request.job), ...(merge ? [merge] : [])]) {
+      for (const job of result ? [] : jobsOf(requests, merge, part)) {
         result = await store.result(job.id);
         if (result) continue;
         result = await renderInto(store, job, renderer, stop.signal);
         if (!result) return EXIT_OF_INTERRUPT[interrupted ?? 'SIGTERM'];
         rendered++;
       }
-      if (result) await store.deliver(result, { root: plan.outputRoot, paths });
+      if (result?.id === id) await store.deliver(result, { root: plan.outputRoot, paths });
       done++;
-      if (wanted && done === wanted.size) break;
+      if (wanted?.size === 0) break;
     }
   } finally {
     stopListening();
     progress.clear();
   }
+  const [unknown] = wanted ?? [];
+  if (unknown !== undefined) throw usage(`--image: the batch has no image "${unknown}".`);
   if (json) io.stdout(jsonLine({ ok: true, images: done, rendered }));
   else if (!quiet) io.stderr(`${visible(`${done} images, ${rendered} jobs rendered`)}\n`);
   return EXIT.ok;
+}
+
+/** The jobs of an image, or of one of its parts; an image that is not in parts counts as its part 0. */
+function jobsOf(requests: readonly FarmRequest[], merge: FarmJob | undefined, part: number | undefined): FarmJob[] {
+  const jobs = requests.map(({ job }) => job);
+  if (part !== undefined) return jobs.slice(part, part + 1);
+  return merge ? [...jobs, merge] : jobs;
 }
 
 async function renderInto(

@@ -1,0 +1,88 @@
+import { createReadStream } from 'node:fs';
+import { createServer, type Server, type ServerResponse } from 'node:http';
+import { join } from 'node:path';
+import { farmMetrics } from '../metrics';
+import type { FarmQueue } from '../queue/farm-queue';
+import type { FolderStore } from '../store/folder-store';
+import { STATUS_PAGE } from './status-page';
+
+/** Nothing from anywhere else: the page's own style and script, its images and data from this server. */
+const POLICY =
+  "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/** Milliseconds for which an answer is reused: many pages that are open cost as much as one. */
+const FRESH_MS = 500;
+
+/**
+ * A read-only page about a farm: progress, the images that were finished last, failures with their reasons, workers.
+ * Not listening yet.
+ *
+ * | address | answers |
+ * |---|---|
+ * | `/` | the page; it requests nothing from other servers |
+ * | `/status.json` | status, the latest results, dead letters |
+ * | `/metrics` | Prometheus text |
+ * | `/result/ID/N` | the Nth file of a result, `.png` only |
+ */
+export function statusServer(queue: FarmQueue, store: FolderStore): Server {
+  let cached: { readonly at: number; readonly text: Promise<string> } | undefined;
+  const statusText = () => {
+    if (!cached || Date.now() - cached.at > FRESH_MS) {
+      const text = Promise.all([queue.status(), queue.recent(), queue.deadLetters(50)]).then(
+        ([status, recent, deadLetters]) =>
+          JSON.stringify({
+            status,
+            recent: recent.map(({ id, label, seconds, files }) => ({
+              id,
+              label,
+              seconds,
+              image: files.findIndex(({ name }) => name.endsWith('.png')),
+            })),
+            deadLetters,
+          }),
+      );
+      cached = { at: Date.now(), text };
+    }
+    return cached.text;
+  };
+  return createServer((request, response) => {
+    const answer = async (): Promise<void> => {
+      if (request.method !== 'GET' && request.method !== 'HEAD')
+        return send(response, 405, 'text/plain', 'Only GET.\n');
+      const { pathname } = new URL(request.url ?? '/', 'http://localhost');
+      if (pathname === '/') return send(response, 200, 'text/html; charset=utf-8', STATUS_PAGE);
+      if (pathname === '/status.json') return send(response, 200, 'application/json', await statusText());
+      if (pathname === '/metrics')
+        return send(response, 200, 'text/plain; version=0.0.4', farmMetrics(await queue.status()));
+      const [, id, index] = /^\/result\/([0-9a-f]{40})\/(\d{1,3})$/.exec(pathname) ?? [];
+      const name = id && (await store.result(id))?.files[Number(index)]?.name;
+      if (!id || !name || !/^[\w-]+\.png$/.test(name)) return send(response, 404, 'text/plain', 'Not found.\n');
+      response.writeHead(200, {
+        'content-type': 'image/png',
+        // A result never changes.
+        'cache-control': 'max-age=31536000, immutable',
+        'content-security-policy': POLICY,
+        'x-content-type-options': 'nosniff',
+      });
+      createReadStream(join(store.resultFolder(id), name))
+        .on('error', () => response.destroy())
+        .pipe(response);
+    };
+    answer().catch((error: Error) => {
+      if (response.headersSent) response.destroy();
+      else send(response, 503, 'text/plain; charset=utf-8', `${error.message}\n`);
+    });
+  });
+}
+
+function send(response: ServerResponse, code: number, type: string, body: string): void {
+  response
+    .writeHead(code, {
+      'content-type': type,
+      'cache-control': 'no-store',
+      'content-security-policy': POLICY,
+      'x-content-type-options': 'nosniff',
+      'referrer-policy': 'no-referrer',
+    })
+    .end(body);
+}
