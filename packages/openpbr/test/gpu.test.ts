@@ -161,6 +161,20 @@ describe('WGSL against its CPU twin', () => {
     COMPILE_MS,
   );
   it(
+    'smooth lobes, alone and among others, 1024 random surfaces from either side (seed 50)',
+    () =>
+      compare(
+        { ...ALL, OPENPBR_THIN_FILM: false },
+        through(1024, 50, (next) => ({
+          ...anyClear(next, 0),
+          specular_roughness: next() < 0.7 ? 0 : Math.fround(next()),
+          coat_roughness: next() < 0.7 ? 0 : Math.fround(next()),
+          coat_weight: next() < 0.5 ? 0 : Math.fround(next()),
+        })),
+      ),
+    COMPILE_MS,
+  );
+  it(
     'light through, single scattering only (seed 41)',
     () => compare({ ...ALL, OPENPBR_THIN_FILM: false, OPENPBR_MULTISCATTER: false }, through(512, 41)),
     COMPILE_MS,

@@ -16,7 +16,7 @@ import {
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction, furnace, integrateHemisphere } from './integrate';
 import { resultsOf } from './results';
-import { sphereFurnace } from './sphere';
+import { deltaParts, sphereFurnace } from './sphere';
 import { oracle, type OraclePair, type OracleSetting } from './oracle/index';
 
 // The parameters of the lobes that exist. Settings that touch others wait for those lobes.
@@ -380,10 +380,12 @@ describe('against an independent implementation', () => {
             const ours = clear
               ? sphereFurnace(p, wo, side, 40)
               : { reflected: furnace(p, wo, side, 40).albedo, transmitted: [0, 0, 0] };
-            const transmitted = ours.transmitted;
-            const reflected = DARKER_AT_HORIZON.includes(setting.id)
+            const deltas = deltaParts(p, wo, side);
+            const transmitted = ours.transmitted.map((value, i) => value + (deltas.transmitted[i] as number));
+            const spread = DARKER_AT_HORIZON.includes(setting.id)
               ? darkenedEvenly(p, wo, ours.reflected)
               : ours.reflected;
+            const reflected = spread.map((value, i) => value + (deltas.reflected[i] as number));
             const gain = gainOfCorrelation(p, wo, side);
             for (const i of channels) {
               const slack = (other: number, error: number) =>

@@ -8,6 +8,8 @@ import {
   refract,
   refractGgx,
   refractHalf,
+  sampleBsdf,
+  SPIKE,
   type Bsdf,
   type BsdfOptions,
   type Slopes,
@@ -89,6 +91,27 @@ export function sphereFurnace(
     density: (wi) => 1 / (8 * Math.PI * Math.sqrt(Math.abs(wi[2]))),
   });
   return integrate(b, wo, techniques, size);
+}
+
+/** Reflected and transmitted parts by delta lobes, which quadrature cannot see: of samples that choose lobes evenly. */
+export function deltaParts(
+  p: OpenPbrParameters,
+  wo: OpenPbrVector,
+  options?: BsdfOptions,
+): Pick<SphereFurnace, 'reflected' | 'transmitted'> {
+  const b = prepareBsdf(p, wo, options);
+  const count = 20_000;
+  const parts = {
+    reflected: [0, 0, 0] as [number, number, number],
+    transmitted: [0, 0, 0] as [number, number, number],
+  };
+  for (let i = 0; i < count; i++) {
+    const s = sampleBsdf(b, wo, [0.5, 0.5, (i + 0.5) / count]);
+    if (s.pdf < 1e-9 * SPIKE) continue;
+    const part = s.wi[2] > 0 ? parts.reflected : parts.transmitted;
+    for (const k of [0, 1, 2] as const) part[k] += s.weight[k] / count;
+  }
+  return parts;
 }
 
 function integrate(b: Bsdf, wo: OpenPbrVector, techniques: readonly Technique[], size: number): SphereFurnace {

@@ -6,7 +6,7 @@ import { energyAlbedoMean, conductorLoss, conductorLossMean, stretchedAlbedoMean
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmFacet, filmReflectance, filmChange, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
-import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, type Slopes } from './ggx';
+import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, isSmooth, SPIKE, type Slopes } from './ggx';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
 import {
   prepareTransmission,
@@ -85,7 +85,10 @@ export interface Bsdf {
 /** A sampled direction; twin of the WGSL struct `OpenPbrSample`. */
 export interface BsdfSample {
   readonly wi: OpenPbrVector;
-  /** Density per solid angle; 0 if there is no sample. */
+  /**
+   * Density per solid angle; 0 if there is no sample. Of delta lobes, which {@link evalPdfBsdf} leaves out, their
+   * probability times {@link SPIKE}.
+   */
   readonly pdf: number;
   /** f · |cos θ_i| / pdf. */
   readonly weight: OpenPbrColor;
@@ -128,7 +131,15 @@ function prepareInterface(
   return {
     epsilon,
     summed,
-    ...interfaceEnergy(epsilon, p.specular_roughness, alpha, wo, mu, summed, multipleScattering),
+    ...interfaceEnergy(
+      epsilon,
+      p.specular_roughness,
+      alpha,
+      wo,
+      mu,
+      summed && (isOverOpaque(p) || !isSmooth(alpha)),
+      multipleScattering,
+    ),
   };
 }
 
@@ -332,19 +343,27 @@ const diffusePass = (b: Bsdf, wi: OpenPbrVector): number =>
 const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector =>
   thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi);
 
+/** Densities of the delta lobes of the base and of the coat: {@link SPIKE} for those that were sampled, else 0. */
+type Spikes = readonly [base: number, coat: number];
+const NO_SPIKES: Spikes = [0, 0];
+
 /** `scatter` for directions on the other side. */
 function scatterThrough(
   b: Bsdf,
   wo: OpenPbrVector,
   wi: OpenPbrVector,
   h: OpenPbrVector,
+  spikes: Spikes,
 ): { f: OpenPbrColor; pdf: number } {
   if (wo[2] <= 0) return { f: [0, 0, 0], pdf: 0 };
   const { transmission } = b;
   const c = clamp(dot(wo, h), 0, 1);
-  const [value, density] = transmission.thin
-    ? ggx(transmission.thinAlpha, wo, [wi[0], wi[1], -wi[2]], h)
-    : refractGgx(transmission.eta, b.alpha, wo, wi, h);
+  const alpha = transmission.thin ? transmission.thinAlpha : b.alpha;
+  const [value, density] = isSmooth(alpha)
+    ? [spikes[0], spikes[0]]
+    : transmission.thin
+      ? ggx(alpha, wo, [wi[0], wi[1], -wi[2]], h)
+      : refractGgx(transmission.eta, alpha, wo, wi, h);
   const sides = facet(b, c);
   const coat = coatThrough(b.coat, transmission.exit, -wi[2]);
   const cosine = -wi[2] / Math.PI;
@@ -364,11 +383,17 @@ function scatterThrough(
   };
 }
 
-function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector): { f: OpenPbrColor; pdf: number } {
-  if (wi[2] < 0) return scatterThrough(b, wo, wi, h);
+function scatter(
+  b: Bsdf,
+  wo: OpenPbrVector,
+  wi: OpenPbrVector,
+  h: OpenPbrVector,
+  spikes: Spikes,
+): { f: OpenPbrColor; pdf: number } {
+  if (wi[2] < 0) return scatterThrough(b, wo, wi, h, spikes);
   if (Math.min(wo[2], wi[2]) <= 0) return { f: [0, 0, 0], pdf: 0 };
   const c = clamp(dot(wo, h), 0, 1);
-  const [value, density] = ggx(b.alpha, wo, wi, h, b.bound);
+  const [value, density] = isSmooth(b.alpha) ? [spikes[0], spikes[0]] : ggx(b.alpha, wo, wi, h, b.bound);
   const sides = facet(b, c);
   const through = b.diffuseScale > 0 || b.subsurface.back > 0 ? diffusePass(b, wi) : 0;
   const metalLobe = (conductorLoss(b.alpha, b.metal.roughness, wi, wi[2]) / b.metal.meanLost / Math.PI) * wi[2];
@@ -377,8 +402,11 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   const { frame } = b.coat;
   const coatWi = inCoat(frame, wi);
   const pass = coatPass(b.coat, Math.max(coatWi[2], 1e-5));
-  const [top, topDensity] =
-    coatWi[2] > 0 ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h), b.coat.bound) : [0, 0];
+  const [top, topDensity] = isSmooth(b.coat.alpha)
+    ? [spikes[1], spikes[1]]
+    : coatWi[2] > 0
+      ? ggx(b.coat.alpha, inCoat(frame, wo), coatWi, inCoat(frame, h), b.coat.bound)
+      : [0, 0];
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
   const fibres = fuzzDensity(b.fuzz, wi);
   const basePdf =
@@ -402,9 +430,14 @@ function scatter(b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector, h: OpenPbrVector
   };
 }
 
-/** f · |cos θ_i| and density together; twin of `openpbr_eval_pdf`. `wo` is the one that {@link prepareBsdf} had. */
+/**
+ * f · |cos θ_i| and density together, without delta lobes (roughness 0.01 and below); twin of `openpbr_eval_pdf`. `wo` is
+ * the one that {@link prepareBsdf} had.
+ */
 export const evalPdfBsdf = (b: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): { f: OpenPbrColor; pdf: number } => {
-  return wi[2] >= 0 ? scatter(b, wo, wi, halfVector(wo, wi)) : scatterThrough(b, wo, wi, throughHalf(b, wo, wi));
+  return wi[2] >= 0
+    ? scatter(b, wo, wi, halfVector(wo, wi), NO_SPIKES)
+    : scatterThrough(b, wo, wi, throughHalf(b, wo, wi), NO_SPIKES);
 };
 
 /** f · |cos θ_i|; twin of `openpbr_eval`. `wo` is the one that {@link prepareBsdf} had. */
@@ -421,6 +454,7 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
   let wi: OpenPbrVector;
   let transmitted = false;
   let medium = 1;
+  let spikes = NO_SPIKES;
   const top = u[2] < b.coatProbability;
   const chosen = u[2] - b.coatProbability;
   const limit = (1 - b.coatProbability) * b.specularProbability;
@@ -431,9 +465,11 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     const side = chosen / limit;
     const { thin, thinAlpha, eta } = b.transmission;
     const { frame } = b.coat;
-    h = top
-      ? outOfCoat(frame, ggxSample(b.coat.alpha, inCoat(frame, wo), u, b.coat.bound))
-      : ggxSample(thin && side >= b.thinChance ? thinAlpha : b.alpha, wo, u, b.bound);
+    const alpha = top ? b.coat.alpha : thin && side >= b.thinChance ? thinAlpha : b.alpha;
+    h = top ? outOfCoat(frame, ggxSample(alpha, inCoat(frame, wo), u, b.coat.bound)) : ggxSample(alpha, wo, u, b.bound);
+    // Where both have one normal, deltas of the coat and the base are one direction.
+    const isOne = !frame || Math.fround(frame[2][2]) >= 1;
+    if (isSmooth(alpha)) spikes = [isOne || !top ? SPIKE : 0, isOne || top ? SPIKE : 0];
     const c = dot(wo, h);
     wi = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
     const chance = reflectionChance(b, facet(b, clamp(c, 0, 1)));
@@ -451,7 +487,7 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     if (transmitted) wi = [wi[0], wi[1], -wi[2]];
     h = transmitted ? throughHalf(b, wo, wi) : halfVector(wo, wi);
   }
-  const { f, pdf } = scatter(b, wo, wi, h);
+  const { f, pdf } = scatter(b, wo, wi, h, spikes);
   if (!(pdf > 0)) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
   const { subsurface: part, subsurfaceChance: enters } = b.transmission;
   const subsurface = transmitted && medium < enters;

@@ -1,6 +1,6 @@
 import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyBounce, energyAlbedo, energyTotalLost } from './energy';
-import { ggxAlpha, viewRoughness, type Slopes } from './ggx';
+import { ggxAlpha, isSmooth, viewRoughness, type Slopes } from './ggx';
 import { insideEnergy } from './inside';
 import { stretchedEnergy } from './stretched';
 import { OPENPBR_INSIDE_NEAR } from '../tables/constants.wesl';
@@ -74,7 +74,9 @@ export function interfaceEnergy(
       ? stretchedEnergy(eta, alpha, wo)
       : undefined;
   const bounce = energyBounce(epsilon, roughness);
-  const lost = Math.max(kept ? 1 - kept[0] - kept[1] : energyTotalLost(epsilon, roughness, mu), 0);
+  // Nothing is lost between the facets of a delta.
+  const tabulated = isSmooth(alpha) ? 0 : energyTotalLost(epsilon, roughness, mu);
+  const lost = Math.max(kept ? 1 - kept[0] - kept[1] : tabulated, 0);
   const albedo = kept
     ? Math.min(kept[0] + lost * bounce, 1)
     : energyAlbedo(epsilon, viewRoughness(alpha, roughness, wo), mu);

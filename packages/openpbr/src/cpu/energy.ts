@@ -11,7 +11,7 @@ import {
 } from '../tables/layout';
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
-import { conductorCosine, type Slopes } from './ggx';
+import { conductorCosine, isSmooth, type Slopes } from './ggx';
 import { clamp } from './vector';
 
 /** What a texture with linear filtering and clamping gives at `coords` in [0, 1]. */
@@ -118,6 +118,7 @@ function stretchedMore(alpha: Slopes, roughness: number, x: number, along: numbe
  * Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of `openpbr_conductor_loss`.
  */
 export function conductorLoss(alpha: Slopes, roughness: number, w: OpenPbrVector, mu: number): number {
+  if (isSmooth(alpha)) return 0;
   const cosine = conductorCosine(alpha, w, mu);
   const lost = energyLost(roughness, cosine);
   if (alpha[0] <= alpha[1]) return lost;

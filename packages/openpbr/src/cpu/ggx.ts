@@ -4,6 +4,12 @@ import { clamp, normalize } from './vector';
 /** GGX slopes along the tangent and the bitangent. */
 export type Slopes = readonly [x: number, y: number];
 
+/** Density of a delta lobe that was sampled, beside which all others vanish. */
+export const SPIKE = 1e30;
+
+/** Whether a lobe is a delta, whose only facet is the normal; twin of `openpbr_smooth`. */
+export const isSmooth = (alpha: Slopes): boolean => alpha[0] <= 1e-4;
+
 /** Roughness and anisotropy to slopes, not below 1e-4; twin of `openpbr_alpha`. */
 export function ggxAlpha(roughness: number, anisotropy: number): Slopes {
   const flat = 1 - anisotropy;
@@ -81,6 +87,7 @@ export function ggxSample(
   u: readonly [number, number, ...number[]],
   bound = 1,
 ): OpenPbrVector {
+  if (isSmooth(alpha)) return [0, 0, 1];
   const v = normalize([alpha[0] * wo[0], alpha[1] * wo[1], wo[2]]);
   const phi = 2 * Math.PI * u[0];
   const z = (1 - u[1]) * (1 + bound * v[2]) - bound * v[2];

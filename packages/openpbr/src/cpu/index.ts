@@ -28,6 +28,8 @@ export {
   ggxSample,
   halfVector,
   conductorCosine,
+  isSmooth,
+  SPIKE,
   viewRoughness,
   type Slopes,
 } from './ggx';

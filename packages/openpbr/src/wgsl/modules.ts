@@ -53,9 +53,13 @@ export const openpbr: WgslModule = bsdf;
 
 /**
  * The GGX microfacet distribution with height-correlated Smith masking (Heitz 2014). `openpbr_alpha` maps roughness and
- * anisotropy to slopes, not below 1e-4, so that a smooth surface is a very narrow lobe and never a special case.
- * `openpbr_ggx` gives, for a half vector, (D G₂ / (4 cos θ_o), density of reflected directions when half vectors are
- * sampled by `openpbr_ggx_sample`). Their ratio is exact however narrow the lobe.
+ * anisotropy to slopes, not below 1e-4. `openpbr_ggx` gives, for a half vector, (D G₂ / (4 cos θ_o), density of
+ * reflected directions when half vectors are sampled by `openpbr_ggx_sample`). Their ratio is exact however narrow the
+ * lobe.
+ *
+ * A lobe of that smallest slope, of roughness 0.01 or less, is a delta: `openpbr_smooth`. Its only facet is the normal.
+ * `openpbr_ggx` then gives `spike` twice, which is 1e30 for the direction that was sampled, and 0 for others. Just
+ * above, a lobe blurs by 1e-4 radians, a tenth of a pixel of a usual image: nobody sees where one kind ends.
  *
  * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness
  * that reflects the same share of the light (the slope across the view counts the more, the lower the view), about, and
