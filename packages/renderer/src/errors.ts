@@ -10,7 +10,7 @@ export class DeviceError extends GlanzError {}
 export const deviceLost = ({ reason, message }: GPUDeviceLostInfo): DeviceError =>
   new DeviceError(
     'renderer/device-lost',
-    `The GPU device was lost (${reason}): ${message || 'no details'}. The scene is safe: request a new device and create the tracer again.`,
+    `The GPU device was lost (${reason}): ${message || 'no details'}. Request a new device and create the tracer again.`,
   );
 
 /**

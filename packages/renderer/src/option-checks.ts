@@ -67,7 +67,7 @@ export function checkInteriors({ materials }: Scene): void {
   if (last >= MAX_INTERIORS)
     throw new DeviceError(
       'renderer/limit',
-      `Material ${last} ("${materials[last]?.name}") lets light into its inside; only the first ${MAX_INTERIORS} materials may: move it up, or give it geometry_thin_walled.`,
+      `Material ${last} ("${materials[last]?.name}") has an interior; only the first ${MAX_INTERIORS} materials may: move it up, or set geometry_thin_walled.`,
     );
 }
 
@@ -81,7 +81,7 @@ export function checkSize(width: number, height: number): void {
   if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
     throw new RenderError(
       'renderer/size',
-      `An image of ${width} × ${height} pixels cannot be rendered: both must be whole numbers of at least 1.`,
+      `An image of ${width} × ${height} pixels: both must be whole numbers of at least 1.`,
     );
   }
 }

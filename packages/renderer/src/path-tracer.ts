@@ -348,7 +348,7 @@ export class PathTracer extends TracerEdits {
     if (this.#integrator.pathsPerSample > 1)
       throw new RenderError(
         'renderer/light-groups',
-        'With catchers the image is no sum of its light groups: they can be set, but not read one by one.',
+        'With catchers, light groups can be set, but not read one by one.',
       );
     return this.#session.readGroup(name);
   }

@@ -65,8 +65,7 @@ export function* frameCameraSteps(
     throw new SceneError('scene/value', `margin is ${margin}; it must be at least 0 and less than 1.`);
   const found: FoundVertices = new Map();
   const { min, max } = yield* boundsBy(scene, found);
-  if (!(min[0] <= max[0]))
-    throw new SceneError('scene/empty', 'The scene has no visible triangles: there is nothing to frame.');
+  if (!(min[0] <= max[0])) throw new SceneError('scene/empty', 'The scene has no visible triangles: nothing to frame.');
   const center: Vector = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
   const back = normalized(direction, 'direction');
   const right = normalized(cross([0, 1, 0], back), 'direction, seen from above,');

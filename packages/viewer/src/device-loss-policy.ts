@@ -17,7 +17,7 @@ export class DeviceLossPolicy {
     if (this.#times.length > MAX_LOSSES)
       throw new ViewerError(
         'viewer/device-lost',
-        'The GPU was lost again and again. Show a smaller model or image, or close other programs that use the GPU.',
+        'The GPU was lost again and again. Show a smaller model or image, or close other programs.',
       );
     await new Promise((resolve) => setTimeout(resolve, 200 * this.#times.length ** 2));
   }

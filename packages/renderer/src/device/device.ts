@@ -51,14 +51,14 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
   if (!gpu) {
     throw new DeviceError(
       'renderer/no-webgpu',
-      'WebGPU is not available here: use a current Chrome, Edge, Firefox or Safari over https; in Node pass the gpu of createGpu() from @glanz/renderer/node.',
+      'WebGPU is not available here: use a current browser over https; in Node pass the gpu of createGpu() of @glanz/renderer/node.',
     );
   }
   const adapter = await gpu.requestAdapter({ powerPreference: options.powerPreference ?? 'high-performance' });
   if (!adapter) {
     throw new DeviceError(
       'renderer/no-adapter',
-      'WebGPU found no usable GPU: update the graphics driver, allow hardware acceleration, or reload the page if the GPU was lost.',
+      'WebGPU found no usable GPU: update its driver, allow hardware acceleration, or reload the page.',
     );
   }
   const requiredLimits: Record<string, number> = {};

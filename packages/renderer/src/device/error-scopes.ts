@@ -51,7 +51,7 @@ async function checkScopes(
   if (memory) {
     throw new DeviceError(
       'renderer/out-of-memory',
-      `The GPU has not enough memory for ${what}: ${memory.message || 'no details'}. Free some, or make the image, textures or meshes smaller.`,
+      `The GPU has not enough memory for ${what}: ${memory.message || 'no details'}. Make the image, textures or meshes smaller.`,
     );
   }
   const refused = validation ?? internal;

@@ -27,7 +27,7 @@ export class GroupSettings {
     if (plane < 0)
       throw new RenderError(
         'renderer/light-groups',
-        `There is no light group "${name}"; there are: ${this.#names().join(', ')}.`,
+        `The scene has no light group "${name}"; it has: ${this.#names().join(', ')}.`,
       );
     return plane;
   }

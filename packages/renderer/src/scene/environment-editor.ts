@@ -56,16 +56,9 @@ export class EnvironmentEditor {
       );
     return this.#afterImages(() => {
       const { environment } = this.#scene;
-      if (!environment)
-        throw new RenderError(
-          'renderer/environment',
-          'The scene has no environment to change; set one with setEnvironment().',
-        );
+      if (!environment) throw new RenderError('renderer/environment', 'The scene has no environment: set one first.');
       if (environment.type === 'constant' && change.intensity !== undefined)
-        throw new RenderError(
-          'renderer/environment',
-          'A constant environment has no intensity; set another radiance with setEnvironment().',
-        );
+        throw new RenderError('renderer/environment', 'A constant environment has no intensity: set its radiance.');
       const { visible = environment.visible ?? true } = change;
       // The pixels were validated when they were set.
       return this.#changeEnvironment(

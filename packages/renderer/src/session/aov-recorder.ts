@@ -120,9 +120,6 @@ export class AovRecorder {
   }
 
   #missing(name: AovName): RenderError {
-    return new RenderError(
-      'renderer/aov',
-      `The film keeps no AOV "${name}": pass it to PathTracer.create as one of aovs, or wait for setAovs.`,
-    );
+    return new RenderError('renderer/aov', `The film keeps no AOV "${name}": request it by aovs or setAovs.`);
   }
 }

@@ -196,10 +196,7 @@ export class FilmSession {
   async *render(options: RenderOptions): AsyncGenerator<RenderProgress, void, undefined> {
     const { samples, noise, maxSubmitMs } = renderGoal(options);
     if (this.#rendering)
-      throw new RenderError(
-        'renderer/busy',
-        'This tracer is already rendering: finish or abort the other render() first.',
-      );
+      throw new RenderError('renderer/busy', 'This tracer is already rendering: finish or abort that first.');
     if (this.#first > 0 && noise !== undefined)
       throw new RenderError(
         'renderer/samples',
