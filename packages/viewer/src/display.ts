@@ -72,10 +72,7 @@ export class Display {
       if (!wanted()) throw destroyed();
       const context = canvas.getContext('webgpu');
       if (!context)
-        throw new ViewerError(
-          'viewer/no-canvas',
-          'The canvas has no WebGPU context: use a canvas without a context of another kind.',
-        );
+        throw new ViewerError('viewer/no-canvas', 'The canvas has a context of another kind: use a new one.');
       context.configure({ device, format, alphaMode: 'premultiplied' });
       return new Display(canvas, device, context, pass, blend, uniforms!);
     } catch (error) {

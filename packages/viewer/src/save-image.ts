@@ -191,10 +191,7 @@ async function fileOf(
   const canvas = new OffscreenCanvas(width, height);
   const context = canvas.getContext('2d');
   if (!context)
-    throw new checks.ViewerError(
-      'viewer/blob',
-      `The browser has no canvas of ${width} × ${height} pixels to write the image with.`,
-    );
+    throw new checks.ViewerError('viewer/blob', `The browser has no canvas of ${width} × ${height} pixels.`);
   context.putImageData(new ImageData(codes, width, height), 0, 0);
   const blob = await canvas
     .convertToBlob({ type, ...(quality === undefined ? {} : { quality }) })

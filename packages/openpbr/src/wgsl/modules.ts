@@ -58,7 +58,7 @@ export const openpbr: WgslModule = bsdf;
  * lobe.
  *
  * A lobe of that smallest slope, of roughness 0.01 or less, is a delta: `openpbr_smooth`. Its only facet is the normal.
- * `openpbr_ggx` then gives `spike` twice, which is 1e30 for the direction that was sampled, and 0 for others. Just
+ * `openpbr_ggx_lobe` then gives `spike` twice, which is 1e30 for the direction that was sampled, and 0 for others. Just
  * above, a lobe blurs by 1e-4 radians, a tenth of a pixel of a usual image: nobody sees where one kind ends.
  *
  * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness

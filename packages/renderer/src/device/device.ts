@@ -58,7 +58,7 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
   if (!adapter) {
     throw new DeviceError(
       'renderer/no-adapter',
-      'WebGPU found no usable GPU: update its driver, allow hardware acceleration, or reload the page.',
+      'WebGPU found no usable GPU: update its driver, or allow hardware acceleration.',
     );
   }
   const requiredLimits: Record<string, number> = {};

@@ -200,7 +200,7 @@ export class FilmSession {
     if (this.#first > 0 && noise !== undefined)
       throw new RenderError(
         'renderer/samples',
-        `A noise target needs a film that begins at sample 0, not ${this.#first}: see reset().`,
+        `A noise target needs a film from sample 0, not ${this.#first}: see reset().`,
       );
     this.#rendering = true;
     try {
