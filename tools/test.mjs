@@ -120,10 +120,11 @@ async function build() {
 }
 
 /**
- * `early`: begins with the first stage and is waited for in its turn: it depends on none before it, and leaves a core
- * idle while a package waits for others.
+ * Stages run one after another, those with `beside` beside the others, and all are reported in this order. `beside`
+ * names the stage after which one begins, '' for none: it reads what that one leaves, prints nothing itself, and keeps
+ * cores busy that the others leave idle.
  *
- * @type {{ name: string, title: string, early?: boolean, run: () => Promise<import('./pipeline/report.mjs').CheckResult> }[]}
+ * @type {{ name: string, title: string, beside?: string, run: () => Promise<import('./pipeline/report.mjs').CheckResult> }[]}
  */
 const STAGES = [
   { name: 'imports', title: 'who imports whom', run: check('./check-imports.mjs', 'checkImports') },
@@ -151,20 +152,27 @@ const STAGES = [
     run: () => program(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json']),
   },
   { name: 'docs', title: 'a doc comment on every exported symbol', run: check('./check-docs.mjs', 'checkDocs') },
-  { name: 'build', title: 'every package', early: true, run: build },
+  { name: 'unit', title: 'unit and GPU tests, from sources', run: unit },
+  { name: 'build', title: 'every package', beside: '', run: build },
   {
     name: 'published',
     title: 'publint, attw, declarations at consumers',
+    beside: 'build',
     run: check('./check-published.mjs', 'checkPublished'),
   },
-  { name: 'sizes', title: 'budgets', run: check('./check-sizes.mjs', 'checkSizes') },
+  { name: 'sizes', title: 'budgets', beside: 'published', run: check('./check-sizes.mjs', 'checkSizes') },
   {
     name: 'treeshake',
     title: 'one symbol brings only itself',
+    beside: 'sizes',
     run: check('./check-treeshake.mjs', 'checkTreeShaking'),
   },
-  { name: 'entries', title: 'importing does nothing, in bare Node', run: check('./check-entries.mjs', 'checkEntries') },
-  { name: 'unit', title: 'unit and GPU tests', run: unit },
+  {
+    name: 'entries',
+    title: 'importing does nothing, in bare Node',
+    beside: 'treeshake',
+    run: check('./check-entries.mjs', 'checkEntries'),
+  },
   { name: 'e2e', title: 'playground and documentation in Chromium', run: e2e },
 ];
 
@@ -195,6 +203,15 @@ function chosenStages() {
   );
 }
 
+/** The stage after which one begins: where that is not chosen, the one before it. */
+function chosenBefore({ beside }, chosen) {
+  if (!beside || chosen.some(({ name }) => name === beside)) return beside;
+  return chosenBefore(
+    STAGES.find(({ name }) => name === beside),
+    chosen,
+  );
+}
+
 const seconds = (ms) => `${(ms / 1000).toFixed(1)} s`;
 
 await main(async () => {
@@ -215,14 +232,25 @@ await main(async () => {
       return end({ passed: 0, failed: 1, lines: [line] });
     }
   };
-  const begun = new Map(stages.filter(({ early }) => early).map((stage) => [stage, attempt(stage)]));
+  /** Ends of the stages that run beside the others. @type {Map<string, ReturnType<typeof attempt>>} */
+  const begun = new Map();
+  for (const stage of stages.filter(({ beside }) => beside !== undefined))
+    begun.set(
+      stage.name,
+      (async () => {
+        await begun.get(chosenBefore(stage, stages));
+        const end = await attempt(stage);
+        if (end.result.failed > 0) process.stdout.write(`\n── ${stage.name} has failed, as is reported in its turn\n`);
+        return end;
+      })(),
+    );
   const rows = [];
   let passed = 0;
   let failed = 0;
   for (const stage of stages) {
     const { name, title } = stage;
     process.stdout.write(`\n── ${name}: ${title}\n`);
-    const { result, ms } = await (begun.get(stage) ?? attempt(stage));
+    const { result, ms } = await (begun.get(name) ?? attempt(stage));
     for (const line of [...(result.table ?? []), ...(result.lines ?? [])]) process.stdout.write(`${line}\n`);
     passed += result.passed;
     failed += result.failed;
