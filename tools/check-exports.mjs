@@ -91,7 +91,7 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
     if (
       dependency.startsWith('@glanz/') ? range !== 'workspace:^' : range !== 'catalog:' && !/^([\^~]|>=)?\d/.test(range)
     )
-      say(`dependency ${dependency}: "${range}" (wanted: workspace:^ inside, catalog: outside).`);
+      say(`dependency ${dependency}: "${range}" (workspace:^ inside, catalog: outside).`);
   }
   // A binding to a library needs that library; all other peers are for those who want them.
   for (const peer of Object.keys(manifest.peerDependencies ?? {}))

@@ -115,10 +115,11 @@ function isAlive(pid) {
 export function ensureBuilt({ only, force = false, log = (line) => process.stderr.write(`${line}\n`) } = {}) {
   return withLock(async () => {
     const order = topological(publishedPackages());
-    const wanted = new Set(only ?? order.map((p) => p.short));
+    const requested = new Set(only ?? order.map((p) => p.short));
     for (const p of [...order].reverse())
-      if (wanted.has(p.short)) for (const name of internalDependencies(p)) wanted.add(name.slice('@glanz/'.length));
-    const packages = order.filter((p) => wanted.has(p.short));
+      if (requested.has(p.short))
+        for (const name of internalDependencies(p)) requested.add(name.slice('@glanz/'.length));
+    const packages = order.filter((p) => requested.has(p.short));
     const prints = new Map();
     for (const p of packages)
       prints.set(

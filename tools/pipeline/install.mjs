@@ -4,10 +4,10 @@ import { PNPM_VERSION, TaskError, pnpm, root, stream } from './process.mjs';
 
 /** True if node_modules holds what the lockfile says: pnpm leaves the lockfile it installed beside its store. */
 export function isInstalled(folder = root) {
-  const wanted = join(folder, 'pnpm-lock.yaml');
+  const required = join(folder, 'pnpm-lock.yaml');
   const installed = join(folder, 'node_modules', '.pnpm', 'lock.yaml');
   if (!existsSync(installed) || !existsSync(join(folder, 'node_modules', '.modules.yaml'))) return false;
-  return readFileSync(wanted).equals(readFileSync(installed));
+  return readFileSync(required).equals(readFileSync(installed));
 }
 
 /** Installs the workspace's dependencies if they are missing or older than the lockfile. */

@@ -98,26 +98,26 @@ export function readConstants(text, file = 'constants.wesl') {
   };
 
   /** @returns {{ value: unknown, type: string }} */
-  const expression = (wanted) => {
+  const expression = (kind) => {
     const at = here();
     const token = peek();
     if (token === 'true' || token === 'false') {
-      if (wanted !== undefined && wanted.scalar !== 'bool') fail(at, `${token} stands where a number is expected`);
+      if (kind !== undefined && kind.scalar !== 'bool') fail(at, `${token} stands where a number is expected`);
       take();
       return { value: token === 'true', type: 'boolean' };
     }
     if (token === '-' || NUMBER.test(token ?? '')) {
-      if (wanted !== undefined && wanted.kind !== 'scalar') fail(at, 'a number stands where several are expected');
+      if (kind !== undefined && kind.kind !== 'scalar') fail(at, 'a number stands where several are expected');
       if (token === '-') take();
       const { text: written, from } = take();
       if (!NUMBER.test(written)) fail(from, `"${written}" is no literal`);
       const value = token === '-' ? -numberOf(written) : numberOf(written);
-      check(from, value, written, wanted?.scalar);
+      check(from, value, written, kind?.scalar);
       return { value, type: 'number' };
     }
     const found = type();
     if (found.kind === 'scalar') fail(at, 'a table of constants converts no values: write the literal');
-    if (wanted !== undefined && wanted.kind !== found.kind) fail(at, 'the value is of another type');
+    if (kind !== undefined && kind.kind !== found.kind) fail(at, 'the value is of another type');
     take('(');
     const of = found.kind === 'vector' ? { kind: 'scalar', scalar: found.scalar } : found.element;
     const elements = [];
@@ -126,7 +126,7 @@ export function readConstants(text, file = 'constants.wesl') {
       if (peek() !== ')') take(',');
     }
     take(')');
-    const count = found.count ?? (wanted?.kind === 'array' ? wanted.count : undefined) ?? elements.length;
+    const count = found.count ?? (kind?.kind === 'array' ? kind.count : undefined) ?? elements.length;
     if (elements.length === 0 || elements.length !== count)
       fail(at, `${elements.length} values stand where ${count || 'some'} are expected`);
     const element = elements[0].type;

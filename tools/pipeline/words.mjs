@@ -6,7 +6,8 @@
 /**
  * Reads the words from the table "avoid | say" of CONTRIBUTING.md, so that the text and the check cannot drift apart.
  * Each entry between backquotes in the first column is a word or phrase, found in comments, texts and as a part of
- * names (`image` in `readImageOf`), with any ending of `…`.
+ * names (`image` in `readImageOf`), with any ending of `…`. In a row that says "as names" they are common words, which
+ * are found where something is declared by that name, alone or with others (as in `uniqueNameOf`).
  *
  * @param {string} markdown
  * @returns {Word[]}
@@ -17,7 +18,8 @@ export function readWords(markdown) {
   const words = [];
   for (let i = head + 2; head >= 0 && rows[i]?.startsWith('|'); i++) {
     const [, avoid, say] = rows[i].split('|').map((cell) => cell.trim());
-    for (const [, phrase] of avoid.matchAll(/`([^`]+)`/g)) words.push({ pattern: patternOf(phrase), say });
+    for (const [, phrase] of avoid.matchAll(/`([^`]+)`/g))
+      words.push({ pattern: /\bas names$/.test(avoid) ? namePatternOf(phrase) : patternOf(phrase), say });
   }
   return words;
 }
@@ -29,6 +31,13 @@ function patternOf(phrase) {
   const capital = stem[0].toUpperCase() + stem.slice(1);
   // A word by itself or at the start of a name, or with a capital inside of a name; `<picture>` is HTML.
   return new RegExp(`(?<![A-Za-z]|</?)${stem}${open ? '' : '(?![a-z])'}|${capital}${open ? '' : '(?![a-z])'}`, 'g');
+}
+
+/** @param {string} name What stands before it must declare a name: a keyword, a bracket, a comma or a `#`. */
+function namePatternOf(name) {
+  const capital = name[0].toUpperCase() + name.slice(1);
+  const declared = `(?<=\\b(?:const|let|var|fn|function|readonly|class|interface|type)\\s+[[{]?\\s*|[({,]\\s*|#)${name}(?=\\??\\s*[:=(,}\\]])`;
+  return new RegExp(`${declared}|\\b${name}(?=[A-Z_]\\w)|(?<=[a-z])${capital}(?![a-z])`, 'g');
 }
 
 /** @param {string} text @param {readonly Word[]} words */

@@ -8,13 +8,13 @@ export async function maskOf(
   tracer: PathTracer,
   name: string,
 ): Promise<Uint8Array> {
-  const wanted = new Set(
+  const requested = new Set(
     tracer.scene.instances.flatMap((instance, index) =>
       instance.name === name ? [index] : [],
     ),
   );
   return Uint8Array.from(await tracer.read('objectId'), (id) =>
-    wanted.has(id) ? 1 : 0,
+    requested.has(id) ? 1 : 0,
   );
 }
 // #endregion mask

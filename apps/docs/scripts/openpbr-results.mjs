@@ -52,11 +52,11 @@ const table = (head, rows) =>
   ].join('\n');
 
 const furnace = table(
-  ['surface', 'least', 'most', 'three-gpu-pathtracer', 'openpbr-bsdf'],
-  Object.entries(data.furnace).map(([name, { least, most }]) => [
+  ['surface', 'min', 'max', 'three-gpu-pathtracer', 'openpbr-bsdf'],
+  Object.entries(data.furnace).map(([name, { min, max }]) => [
     name,
-    number(least),
-    number(most),
+    number(min),
+    number(max),
     ...(OTHERS[name] ?? ['', '']),
   ]),
 );
@@ -99,25 +99,25 @@ What the tests of [\`@glanz/openpbr\`](/packages/openpbr) find; how much was tri
 
 ## White furnace
 
-White surfaces in uniform light should give back all of it: 1. The least and the most found, over ${sizes?.roughnesses.length ?? ''} roughnesses from ${sizes?.roughnesses[0] ?? ''} to ${sizes?.roughnesses.at(-1) ?? ''} and ${sizes?.cosines.length ?? ''} angles down to cosine ${sizes?.cosines.at(-1) ?? ''}, by deterministic quadrature that is itself good to 0.001. Seen along the normal from inside of glass the quadrature is good to 0.012 only, and that angle is left out; surfaces of an index below 1 are seen from cosine 0.97 instead. Stretched metal, glass and dielectrics over diffuse have quadratures of their own, good to 0.0002, and glass is seen along the normal there too; the means of samples' weights agree with them. In the other columns what we measured of three-gpu-pathtracer 0.0.26, by rendering, and of Adobe's openpbr-bsdf, by its samples' weights; empty where we did not.
+White surfaces in uniform light should give back all of it: 1. The minimum and the maximum found, over ${sizes?.roughnesses.length ?? ''} roughnesses from ${sizes?.roughnesses[0] ?? ''} to ${sizes?.roughnesses.at(-1) ?? ''} and ${sizes?.cosines.length ?? ''} angles down to cosine ${sizes?.cosines.at(-1) ?? ''}, by deterministic quadrature that is itself good to 0.001. Seen along the normal from inside of glass the quadrature is good to 0.012 only, and that angle is left out; surfaces of an index below 1 are seen from cosine 0.97 instead. Stretched metal, glass and dielectrics over diffuse have quadratures of their own, good to 0.0002, and glass is seen along the normal there too; the means of samples' weights agree with them. In the other columns what we measured of three-gpu-pathtracer 0.0.26, by rendering, and of Adobe's openpbr-bsdf, by its samples' weights; empty where we did not.
 
 ${furnace}
 
-${materials ? `${materials.materials} random white materials of all lobes, without stretched highlights and rough diffuse, 3 angles each: ${number(materials.least)} to ${number(materials.most)}.` : ''}
+${materials ? `${materials.materials} random white materials of all lobes, without stretched highlights and rough diffuse, 3 angles each: ${number(materials.min)} to ${number(materials.max)}.` : ''}
 
 Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles, and comes back reciprocally; for dielectrics it is summed over facets as they are seen: from outside over 32 of those that mirror upwards and 40 of all, from inside over 160, within the critical angle and within what mirrors upwards. Indices below 1 over something opaque, and those near 1 from inside, are summed over 96 of those, for the viewer, for the light, and for the mean over all directions at 16 of them.
 
 ## Samples against their density
 
-Chi-squared of histograms over 320 equal parts of the sphere, significance 0.01 with Šidák's correction; a lobe fails if its least probability falls below the limit.
+Chi-squared of histograms over 320 equal parts of the sphere, significance 0.01 with Šidák's correction; a lobe fails if its minimum probability falls below the limit.
 
 ${table(
-  ['lobe', 'settings', 'samples each', 'least probability', 'limit'],
+  ['lobe', 'settings', 'samples each', 'minimum probability', 'limit'],
   chi.map(([name, row]) => [
     name.slice(13),
     row.settings,
     row.samples.toLocaleString('en'),
-    row.least.toExponential(1),
+    row.min.toExponential(1),
     row.limit.toExponential(1),
   ]),
 )}

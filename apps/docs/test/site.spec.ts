@@ -170,7 +170,7 @@ test('the home page fetches at most 150 kB of script before the demo is asked fo
   page,
 }) => {
   const heavy: string[] = [];
-  for (const [path, most] of [
+  for (const [path, max] of [
     ['/', 150_000],
     ['/openpbr/coat', 180_000],
     ['/guide/getting-started', 180_000],
@@ -183,7 +183,7 @@ test('the home page fetches at most 150 kB of script before the demo is asked fo
     page.off('request', hear);
     const bytes = [...scripts].reduce((sum, script) => sum + gzipSync(readFileSync(DIST + script)).length, 0);
     expect(scripts.size, `${path} has a script`).toBeGreaterThan(0);
-    if (bytes > most) heavy.push(`${path}: ${Math.round(bytes / 1000)} kB`);
+    if (bytes > max) heavy.push(`${path}: ${Math.round(bytes / 1000)} kB`);
   }
   expect(heavy).toEqual([]);
 });

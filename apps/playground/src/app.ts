@@ -101,9 +101,9 @@ export class App {
     );
     app.#wire();
     app.#resize();
-    const wanted = app.#link && isSample(app.#link.model) ? app.#link.model : undefined;
-    if (wanted && early.request.kind === 'sample' && wanted !== early.request.name)
-      await app.load({ kind: 'sample', name: wanted });
+    const requested = app.#link && isSample(app.#link.model) ? app.#link.model : undefined;
+    if (requested && early.request.kind === 'sample' && requested !== early.request.name)
+      await app.load({ kind: 'sample', name: requested });
     else await app.load(early.request, early.scene);
     if (link?.note) app.#messages.show({ kind: 'note', text: link.note, code: 'playground/link-file', stays: true });
     keepAddress(

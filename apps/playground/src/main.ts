@@ -4,8 +4,9 @@ import { explained } from './ui/explain';
 
 /** The model is made while the renderer's script arrives. */
 function loadEarly() {
-  const wanted = new URLSearchParams(location.search).get('model');
-  const name: SampleName = wanted !== null && Object.hasOwn(SAMPLES, wanted) ? (wanted as SampleName) : 'push-button';
+  const requested = new URLSearchParams(location.search).get('model');
+  const name: SampleName =
+    requested !== null && Object.hasOwn(SAMPLES, requested) ? (requested as SampleName) : 'push-button';
   const request = { kind: 'sample', name } as const;
   const scene = loadScene(request, { signal: new AbortController().signal });
   // Reported where it is awaited.

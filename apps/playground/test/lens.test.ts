@@ -42,7 +42,7 @@ test('orthographic shows as much as perspective did at the distance in focus', (
 });
 
 test('standard views look from where they say', () => {
-  const wanted = {
+  const expected = {
     front: [0, 0, 1],
     right: [1, 0, 0],
     back: [0, 0, -1],
@@ -50,8 +50,8 @@ test('standard views look from where they say', () => {
     top: [0, 1, 0],
     bottom: [0, -1, 0],
   } as const;
-  for (const [name, direction] of Object.entries(wanted))
-    directionOf(STANDARD_VIEWS[name as keyof typeof wanted]).forEach((value, k) =>
+  for (const [name, direction] of Object.entries(expected))
+    directionOf(STANDARD_VIEWS[name as keyof typeof expected]).forEach((value, k) =>
       expect(Math.abs(value - direction[k]!), name).toBeLessThan(0.03),
     );
 });

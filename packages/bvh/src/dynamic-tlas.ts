@@ -372,10 +372,10 @@ export class DynamicTlas implements Tlas {
       (this.#box[5] as number) - (this.#box[2] as number),
     );
     let best = NOWHERE,
-      least = Infinity;
+      minimum = Infinity;
     if ((this.#heights[0] as number) < TLAS_MAX_DEPTH) {
       best = ABOVE_ROOT;
-      least = this.#rootSurface();
+      minimum = this.#rootSurface();
     }
     // Slots yet to visit, three numbers each: what the boxes above them grow by, inner nodes above them, the slot.
     const stack = [0, 1, RIGHT, 0, 1, LEFT];
@@ -383,16 +383,16 @@ export class DynamicTlas implements Tlas {
       const slot = stack.pop() as number,
         depth = stack.pop() as number,
         grown = stack.pop() as number;
-      if (grown + own >= least) continue;
+      if (grown + own >= minimum) continue;
       const reference = words[slot] as number;
       const joined = this.#surfaceWith(slot);
-      if (grown + joined < least && depth + 1 + this.#heightOf(reference) <= TLAS_MAX_DEPTH) {
-        least = grown + joined;
+      if (grown + joined < minimum && depth + 1 + this.#heightOf(reference) <= TLAS_MAX_DEPTH) {
+        minimum = grown + joined;
         best = slot;
       }
       if (reference >= LEAF) continue;
       const below = grown + joined - this.#surfaceAt(slot);
-      if (below + own >= least) continue;
+      if (below + own >= minimum) continue;
       const left = reference * NODE_WORDS + LEFT,
         right = reference * NODE_WORDS + RIGHT;
       const isLeftFirst =

@@ -149,7 +149,7 @@ describe('on the GPU', () => {
     const binary = buildTlas([{ bounds: blas.bounds, transform: identity }]);
     const [tlas, tree] = layout === 'wide' ? [widenTlas(binary), widenBlas(blas)] : [binary, blas];
     const packed = packHierarchy(tlas, [{ blas: tree, mesh }]);
-    const magnitude = mesh.positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+    const magnitude = mesh.positions.reduce((max, x) => Math.max(max, Math.abs(x)), 0);
     const host = wgslModule(
       'test/bounce',
       /* wgsl */ `

@@ -5,7 +5,7 @@ import * as dawn from 'webgpu';
 
 export const { globals } = dawn;
 const loseAt = Number(process.env.GLANZ_TEST_LOSE_AT ?? 0);
-const most = Number(process.env.GLANZ_TEST_DEVICES ?? Infinity);
+const maxDevices = Number(process.env.GLANZ_TEST_DEVICES ?? Infinity);
 const noMemory = process.env.GLANZ_TEST_NO_MEMORY;
 let devices = 0;
 
@@ -30,12 +30,12 @@ function watch(device) {
 export function create(options) {
   const gpu = dawn.create(options);
   const requestAdapter = gpu.requestAdapter.bind(gpu);
-  gpu.requestAdapter = async (wanted) => {
-    const adapter = await requestAdapter(wanted);
+  gpu.requestAdapter = async (options) => {
+    const adapter = await requestAdapter(options);
     if (!adapter) return adapter;
     const requestDevice = adapter.requestDevice.bind(adapter);
     adapter.requestDevice = async (descriptor) => {
-      if (devices >= most) throw new Error('injected refusal');
+      if (devices >= maxDevices) throw new Error('injected refusal');
       const device = await requestDevice(descriptor);
       if (++devices === 1) watch(device);
       return device;

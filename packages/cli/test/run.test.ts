@@ -110,9 +110,9 @@ describe('writing', () => {
       { length: 8 * 6 * 4 },
       (_, i) => [((i >> 2) % 8) / 8, Math.floor((i >> 2) / 8) / 6, 0.25, 1][i & 3] as number,
     );
-    const wanted = toneMapPixels(film, 8, 6, { toneMap: 'agx', exposure: -1 });
+    const expected = toneMapPixels(film, 8, 6, { toneMap: 'agx', exposure: -1 });
     const read = await sharp(join(cwd, 'm.png')).ensureAlpha().raw().toBuffer();
-    expect(Buffer.compare(read, Buffer.from(wanted))).toBe(0);
+    expect(Buffer.compare(read, Buffer.from(expected))).toBe(0);
   });
 
   it('former names of options work, on the command line and in a batch, and warn once', async () => {

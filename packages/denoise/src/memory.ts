@@ -23,23 +23,23 @@ const bytesOf = (slots: readonly number[]): number => slots.reduce((sum, bytes) 
 function planTiles(network: Network, options: PrepareOptions, memory: number, maxBufferSize: number): TiledPlan {
   const { width, height } = options;
   let plan: Plan | undefined;
-  let least = Infinity;
+  let min = Infinity;
   const tiling = tileImage(width, height, network.overlap, (w, h) => {
     const planned = planNetwork(network, w, h, options);
-    if (planned) least = Math.min(least, bytesOf(planned.slots));
+    if (planned) min = Math.min(min, bytesOf(planned.slots));
     plan = planned && planned.slots.every((bytes) => bytes <= maxBufferSize) ? planned : undefined;
     return plan !== undefined && bytesOf(plan.slots) <= memory;
   });
   if (tiling && plan) return { tiling, plan };
   // No plan at all: a row of workgroups does not fit into a binding.
-  throw least <= memory || least === Infinity
+  throw min <= memory || min === Infinity
     ? new DenoiseError(
         'denoise/limit',
         `Not even a small tile of ${width} × ${height} pixels fits into the device's limits (maxBufferSize ${maxBufferSize}, maxStorageBufferBindingSize ${options.maxBinding}). Request higher ones.`,
       )
     : new DenoiseError(
         'denoise/memory',
-        `The smallest tile of ${width} × ${height} pixels needs ${least} bytes on the GPU, and ${memory} ${memory < options.maxMemory ? 'are free' : 'are allowed by maxMemory'}. Free memory, or use storage 'f16' or a smaller network.`,
+        `The smallest tile of ${width} × ${height} pixels needs ${min} bytes on the GPU, and ${memory} ${memory < options.maxMemory ? 'are free' : 'are allowed by maxMemory'}. Free memory, or use storage 'f16' or a smaller network.`,
       );
 }
 

@@ -48,7 +48,7 @@ async function run(
 }
 
 /** Largest difference, relative to 1. */
-const farthest = (a: Float32Array, b: Float32Array) => a.reduce((most, v, i) => Math.max(most, Math.abs(v - b[i]!)), 0);
+const farthest = (a: Float32Array, b: Float32Array) => a.reduce((max, v, i) => Math.max(max, Math.abs(v - b[i]!)), 0);
 
 describe('FilmDenoiser', () => {
   it('blends as the twin does, with a variance and without', async () => {
@@ -119,10 +119,9 @@ describe('FilmDenoiser', () => {
 
 /** The brightest channel of the 24 pixels around one. */
 function neighbours(film: Float32Array, x: number, y: number): number {
-  let most = 0;
+  let max = 0;
   for (let v = -2; v <= 2; v++)
     for (let u = -2; u <= 2; u++)
-      if (u !== 0 || v !== 0)
-        for (let c = 0; c < 3; c++) most = Math.max(most, film[4 * ((y + v) * WIDTH + x + u) + c]!);
-  return most;
+      if (u !== 0 || v !== 0) for (let c = 0; c < 3; c++) max = Math.max(max, film[4 * ((y + v) * WIDTH + x + u) + c]!);
+  return max;
 }

@@ -70,7 +70,10 @@ const FAST = {
 };
 const viewer = (page: Page) => page.locator('glanz-viewer');
 const heard = (page: Page, type: string) =>
-  page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted).map(({ detail }) => detail), type);
+  page.evaluate(
+    (expected) => window.heard.filter((event) => event.type === expected).map(({ detail }) => detail),
+    type,
+  );
 const put = (page: Page, attributes: Record<string, string>, children = '') =>
   page.evaluate(([given, inner]) => void window.put(given as Record<string, string>, inner as string), [
     attributes,

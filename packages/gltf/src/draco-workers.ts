@@ -77,7 +77,7 @@ export class DracoWorkers {
     maxBytes: number,
   ): Promise<DracoPrimitive | undefined> {
     return new Promise((resolve) => {
-      const slot = this.#destroyed ? undefined : this.#leastBusy(bytes.length);
+      const slot = this.#destroyed ? undefined : this.#idlest(bytes.length);
       if (!slot) return resolve(undefined);
       const id = this.#next++;
       const timer = setTimeout(() => this.#fail(slot), TIMEOUT_MS);
@@ -102,19 +102,19 @@ export class DracoWorkers {
   }
 
   /** The least busy worker; a new one if all are busy and the maximum is not reached. */
-  #leastBusy(bytes: number): Slot | undefined {
+  #idlest(bytes: number): Slot | undefined {
     const usable = this.#slots.filter(({ failed }) => !failed);
-    const least = usable.reduce<Slot | undefined>(
+    const min = usable.reduce<Slot | undefined>(
       (best, slot) => (best && best.load <= slot.load ? best : slot),
       undefined,
     );
     // Failed workers count towards the maximum, so that they are not restarted forever.
-    if ((least && (least.load === 0 || bytes === 0)) || this.#slots.length >= this.#count) return least;
+    if ((min && (min.load === 0 || bytes === 0)) || this.#slots.length >= this.#count) return min;
     let worker: Worker;
     try {
       worker = this.#createWorker();
     } catch {
-      return least;
+      return min;
     }
     const slot: Slot = { worker, waiting: new Map(), load: 0, failed: false };
     worker.addEventListener('message', ({ data }: MessageEvent<DracoReply | { readonly kind: string }>) => {

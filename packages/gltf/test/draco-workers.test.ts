@@ -302,7 +302,7 @@ test('a broken mesh is reported as without workers', async () => {
 });
 
 test("a worker file of one's own has helpers by itself, where there are threads", async () => {
-  const wanted = await expected();
+  const meshesHere = await expected();
   for (const [threads, helpers] of [
     [2, 0],
     [4, 4],
@@ -327,7 +327,7 @@ test("a worker file of one's own has helpers by itself, where there are threads"
         return { meshes: scene.meshes.map(({ positions, indices }) => [[...positions], [...indices]]), started };
       }, threads),
     );
-    expect(meshes).toEqual(wanted);
+    expect(meshes).toEqual(meshesHere);
     expect(started).toBe(helpers);
   }
 });

@@ -56,12 +56,12 @@ describe.each(['zip', 'none'] as const)('compression %s', (compression) => {
     ]);
     expect(image.attributes.get('glanz:settingWithALongNameOfMoreThan31')).toBe('é');
     for (const layer of source) {
-      for (const [key, wanted] of Object.entries(layer.channels)) {
+      for (const [key, expected] of Object.entries(layer.channels)) {
         const channel = image.channels.get(layer.name ? `${layer.name}.${key}` : key);
         const half = channel?.type === 'half';
         expect(channel?.data.length).toBe(n);
         for (let i = 0; i < n; i++) {
-          const value = wanted[i] as number;
+          const value = expected[i] as number;
           expect(channel?.data[i]).toBe(half ? fromHalf(toHalf(value)) : value);
         }
       }
@@ -98,10 +98,10 @@ describe('the bytes of the file', () => {
   const bytes = encodeExr({ width, height, layers: [{ name: '', type: 'float', channels: { R } }] });
   const view = new DataView(bytes.buffer);
   const find = (name: string, type: string) => {
-    const wanted = new TextEncoder().encode(`${name}\0${type}\0`);
-    const at = bytes.findIndex((_, i) => wanted.every((b, k) => bytes[i + k] === b));
+    const expected = new TextEncoder().encode(`${name}\0${type}\0`);
+    const at = bytes.findIndex((_, i) => expected.every((b, k) => bytes[i + k] === b));
     expect(at, name).toBeGreaterThan(0);
-    return { size: view.getInt32(at + wanted.length, true), at: at + wanted.length + 4 };
+    return { size: view.getInt32(at + expected.length, true), at: at + expected.length + 4 };
   };
 
   it('begin with magic number and version, and hold every required attribute with its size', () => {

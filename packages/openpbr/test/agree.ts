@@ -64,16 +64,16 @@ class Agreement {
   ): void {
     let digits: readonly number[] | undefined;
     actual.forEach((value, k) => {
-      const wanted = expected[k] as number;
-      const difference = Math.abs(value - wanted);
-      const allowed = LIMIT * Math.max(Math.abs(wanted), FLOOR);
+      const reference = expected[k] as number;
+      const difference = Math.abs(value - reference);
+      const allowed = LIMIT * Math.max(Math.abs(reference), FLOOR);
       this.values++;
       if (difference <= allowed) return;
       this.excused++;
       digits ??= coarse();
       const excess = Number.isFinite(value) ? difference / (allowed + shares(k) + (digits[k] ?? 0)) : Infinity;
       if (excess > Math.max(this.worst.excess, 1))
-        this.worst = { excess, at: `${name}[${k}] is ${value} for ${wanted}, ${at}` };
+        this.worst = { excess, at: `${name}[${k}] is ${value} for ${reference}, ${at}` };
     });
   }
 

@@ -122,7 +122,7 @@ describe('white furnace, lobe by lobe', () => {
   const record = resultsOf('furnace');
   for (const { name, parameters, low, high, inside = false, azimuths = [0.4], exact } of ROWS) {
     it(`${name}: ${low} to ${high}`, () => {
-      const seen = { least: Infinity, most: -Infinity, density: 0 };
+      const seen = { min: Infinity, max: -Infinity, density: 0 };
       for (const [i, specular_roughness] of ROUGHNESSES.entries()) {
         const p = resolveParameters({ base_color: WHITE, subsurface_color: WHITE, specular_roughness, ...parameters });
         for (const [j, mu] of COSINES.entries()) {
@@ -139,8 +139,8 @@ describe('white furnace, lobe by lobe', () => {
               expect(sum, at).toBeGreaterThan(low - slack);
               expect(sum, at).toBeLessThan(high + slack);
               if (!exact && inside && mu === 1) continue;
-              seen.least = Math.min(seen.least, sum);
-              seen.most = Math.max(seen.most, sum);
+              seen.min = Math.min(seen.min, sum);
+              seen.max = Math.max(seen.max, sum);
             }
             seen.density = Math.max(seen.density, pdf);
           }
@@ -155,7 +155,7 @@ describe('white furnace, lobe by lobe', () => {
   for (const specular_ior of [0.3, 0.6, 0.8, 0.9, 0.99, 0.999]) {
     const name = `index ${specular_ior} over diffuse`;
     it(`${name}: 0.997 to 1.002`, () => {
-      const seen = { least: Infinity, most: -Infinity };
+      const seen = { min: Infinity, max: -Infinity };
       for (const [i, specular_roughness] of ROUGHNESSES.entries()) {
         const p = resolveParameters({ base_color: WHITE, specular_roughness, specular_ior });
         // Seen along the normal, the critical angle is an edge right through the nodes.
@@ -165,8 +165,8 @@ describe('white furnace, lobe by lobe', () => {
           const at = `roughness ${specular_roughness}, cosine ${mu}`;
           expect(sum, at).toBeGreaterThan(0.997 - QUADRATURE);
           expect(sum, at).toBeLessThan(1.002 + QUADRATURE);
-          seen.least = Math.min(seen.least, sum);
-          seen.most = Math.max(seen.most, sum);
+          seen.min = Math.min(seen.min, sum);
+          seen.max = Math.max(seen.max, sum);
         }
       }
       record(name, { ...seen, roughnesses: ROUGHNESSES, cosines: [0.97, ...COSINES.slice(1)] });

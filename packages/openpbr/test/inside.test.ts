@@ -16,10 +16,10 @@ afterEach(() => expectNoGpuErrors());
 const round = (roughness: number) => [roughness * roughness, roughness * roughness] as const;
 
 /** Interfaces of indices 1.001 to 3.3 from inside, a third of them below 1.1. */
-function interfaces(count: number, seed: number, leastStep = 1e-3) {
+function interfaces(count: number, seed: number, minStep = 1e-3) {
   const next = uniform(seed);
   return Array.from({ length: count }, () => {
-    const eta = next() < 0.35 ? 1 - leastStep * (0.1 / leastStep) ** next() : 0.3 + 0.65 * next();
+    const eta = next() < 0.35 ? 1 - minStep * (0.1 / minStep) ** next() : 0.3 + 0.65 * next();
     const roughness = Math.fround(0.05 + 0.95 * next());
     return { eta: Math.fround(eta), roughness, wo: single(direction(0.01 + 0.99 * next() ** 1.5, 7 * next())) };
   });

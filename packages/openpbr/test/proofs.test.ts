@@ -103,7 +103,7 @@ describe('the whole model', () => {
   const furnaces = size(200, 24);
   it(`is within 0.985 and 1.006 in a white furnace: ${furnaces} random white materials by 3 angles (seed 301)`, () => {
     const next = uniform(301);
-    const seen = { least: Infinity, most: -Infinity, density: 0 };
+    const seen = { min: Infinity, max: -Infinity, density: 0 };
     for (let i = 0; i < furnaces; i++) {
       const p = anyWhite(next);
       for (const mu of [1, 0.6, 0.2]) {
@@ -113,8 +113,8 @@ describe('the whole model', () => {
         expect(sum, JSON.stringify({ p, mu })).toBeGreaterThan(0.985);
         expect(sum, JSON.stringify({ p, mu })).toBeLessThan(1.006);
         expect(pdf, JSON.stringify({ p, mu })).toBeLessThan(1.004);
-        seen.least = Math.min(seen.least, sum);
-        seen.most = Math.max(seen.most, sum);
+        seen.min = Math.min(seen.min, sum);
+        seen.max = Math.max(seen.max, sum);
         seen.density = Math.max(seen.density, pdf);
       }
     }
@@ -265,7 +265,7 @@ describe('chi-squared of the samples against the density', () => {
     it(`${name}: ${settings} settings, significance 0.01 with Šidák's correction (seed ${310 + index})`, () => {
       const next = uniform(310 + index);
       const limit = 1 - 0.99 ** (1 / settings);
-      let least = 1,
+      let min = 1,
         worst = 0,
         counted = 0;
       // ∫ pdf, and the part of the samples that are lost (facets that send light to where there is none), make 1.
@@ -285,10 +285,10 @@ describe('chi-squared of the samples against the density', () => {
         if (name === 'diffuse' || i % size(1, 3) === 0) whole(p, wo, inside);
         const fit = fitOf(prepareBsdf(p, wo, { inside }), wo, samples, next);
         expect(fit, JSON.stringify({ p, wo, inside })).toBeGreaterThan(limit);
-        least = Math.min(least, fit);
+        min = Math.min(min, fit);
       }
       record(`density: ${name}`, { settings: counted, worst });
-      record(`chi-squared: ${name}`, { settings, samples, limit, least });
+      record(`chi-squared: ${name}`, { settings, samples, limit, min });
     });
   });
 });

@@ -92,12 +92,12 @@ export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttrib
   const source = address === undefined && src ? src : undefined;
   useEffect(() => {
     if (source === undefined) return undefined;
-    let wanted = true;
+    let requested = true;
     // Its errors come by the event.
     void customElements
       .whenDefined('glanz-viewer')
-      .then(() => (wanted ? element.current?.show(source).catch(() => undefined) : undefined));
-    return () => void (wanted = false);
+      .then(() => (requested ? element.current?.show(source).catch(() => undefined) : undefined));
+    return () => void (requested = false);
   }, [source]);
 
   return createElement(

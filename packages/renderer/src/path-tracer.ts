@@ -312,7 +312,7 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * The light groups and how they are set, in the order of the film's planes. One, `rest`, unless the scene names
+   * The light groups and how they are set, in the order of the film's light passes. One, `rest`, unless the scene names
    * groups or the option `lightGroups` makes some.
    */
   get lightGroups(): readonly LightGroup[] {

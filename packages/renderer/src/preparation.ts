@@ -210,18 +210,18 @@ function transfer({ device, memory, cache, options, isLate }: PreparationInput) 
 function assembly({ device, memory, cache, options }: PreparationInput) {
   const { width, height, signal: outer, onProgress } = options;
   const aovs = aovBuffers(aovFlags(options.aovs));
-  const makeFilm = (planes: number) =>
+  const makeFilm = (lightPasses: number) =>
     withErrorScopes(
       device,
       `an image of ${width} × ${height} pixels`,
-      () => new Film(memory, width, height, planes, aovs),
+      () => new Film(memory, width, height, lightPasses, aovs),
     );
   return [
     stage({
       name: 'draft',
       needs: ['expected'],
       place: 'background',
-      run: ({ expected }) => makeFilm(expected.planes),
+      run: ({ expected }) => makeFilm(expected.lightPasses),
     }),
     stage({
       name: 'features',
@@ -233,10 +233,10 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
       name: 'film',
       needs: ['draft', 'features'],
       place: 'foreground',
-      run({ draft, features: { planes } }) {
-        if (draft.planes === planes) return draft;
+      run({ draft, features: { lightPasses } }) {
+        if (draft.lightPasses === lightPasses) return draft;
         draft.destroy();
-        return makeFilm(planes);
+        return makeFilm(lightPasses);
       },
     }),
     stage({

@@ -92,11 +92,11 @@ test('of many instances only those at the border are measured vertex by vertex, 
   const { min, max } = sceneBounds(scene);
   for (const k of [0, 1, 2] as const) {
     expect(min[k]).toBeCloseTo(
-      all.reduce((least, p) => Math.min(least, p[k]!), Infinity),
+      all.reduce((minimum, p) => Math.min(minimum, p[k]!), Infinity),
       12,
     );
     expect(max[k]).toBeCloseTo(
-      all.reduce((most, p) => Math.max(most, p[k]!), -Infinity),
+      all.reduce((maximum, p) => Math.max(maximum, p[k]!), -Infinity),
       12,
     );
   }

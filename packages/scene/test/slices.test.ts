@@ -67,7 +67,7 @@ describe('steps', () => {
       ty = Math.tan(camera.yfov / 2),
       tx = 1.5 * ty;
     const { positions } = scene.meshes[0]!;
-    let most = 0;
+    let maximum = 0;
     for (let v = 0; v < positions.length - 3; v += 3) {
       const d = [0, 1, 2].map((k) => positions[v + k]! + [10, 20, 30][k]! - m[12 + k]!);
       const [x, y, z] = [0, 4, 8].map((at) => d[0]! * m[at]! + d[1]! * m[at + 1]! + d[2]! * m[at + 2]!) as [
@@ -75,10 +75,10 @@ describe('steps', () => {
         number,
         number,
       ];
-      most = Math.max(most, Math.abs(x) / (-z * tx), Math.abs(y) / (-z * ty));
+      maximum = Math.max(maximum, Math.abs(x) / (-z * tx), Math.abs(y) / (-z * ty));
     }
     // Inside, and touching an edge: the nearest camera that sees all.
-    expect(most).toBeCloseTo(1, 9);
+    expect(maximum).toBeCloseTo(1, 9);
   });
 
   test('the environment is checked in steps, to the last pixel', () => {

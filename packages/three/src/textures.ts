@@ -181,7 +181,7 @@ export function uvTransformOf(texture: ThreeTexture, flipped: boolean): TextureB
   const [a, c, x] = flipped ? [n(0), -n(3), n(6) + n(3)] : [n(0), n(3), n(6)];
   const [b0, d0, y0] = flipped ? [n(1), -n(4), n(7) + n(4)] : [n(1), n(4), n(7)];
   const [b, d, y] = texture.flipY ? [-b0, -d0, 1 - y0] : [b0, d0, y0];
-  const near = (value: number, wanted: number) => Math.abs(value - wanted) < 1e-9;
+  const near = (value: number, target: number) => Math.abs(value - target) < 1e-9;
   return near(a, 1) && near(b, 0) && near(c, 0) && near(d, 1) && near(x, 0) && near(y, 0)
     ? undefined
     : [a, b, c, d, x, y];

@@ -123,8 +123,8 @@ describe('instances', () => {
     scene.instances.forEach(({ transform }, i) => {
       const own = new THREE.Matrix4();
       mesh.getMatrixAt(i, own);
-      const wanted = mesh.matrixWorld.clone().multiply(own).elements;
-      Array.from(transform).forEach((value, k) => expect(value).toBeCloseTo(wanted[k] as number, 5));
+      const expected = mesh.matrixWorld.clone().multiply(own).elements;
+      Array.from(transform).forEach((value, k) => expect(value).toBeCloseTo(expected[k] as number, 5));
     });
     expect(scene.materials[scene.instances[0]!.material]!.parameters.base_color).toEqual([0.25, 0.5, 0.5]);
     expect(scene.materials[scene.instances[2]!.material]!.parameters.base_color).toEqual([0.5, 0.5, 0.5]);

@@ -44,11 +44,11 @@ describe('the push-button by way of three.js', () => {
     const byName = new Map(ours.materials.map((material) => [material.name, material.parameters]));
     for (const { name, parameters } of theirs.materials) {
       for (const [key, value] of Object.entries(parameters)) {
-        const wanted = byName.get(name)?.[key as keyof typeof parameters];
+        const expected = byName.get(name)?.[key as keyof typeof parameters];
         // Factors that glTF leaves out are their defaults.
-        if (wanted !== undefined)
+        if (expected !== undefined)
           expect([value].flat().map(Number), `${name} ${key}`).toEqual(
-            [wanted].flat().map((number) => expect.closeTo(Number(number), 5) as number),
+            [expected].flat().map((number) => expect.closeTo(Number(number), 5) as number),
           );
       }
     }

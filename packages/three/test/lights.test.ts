@@ -246,12 +246,12 @@ describe('cameras', () => {
     if (made?.type !== 'perspective') throw new Error('a perspective camera was wanted');
     const m = made.transform;
     for (const point of [new THREE.Vector3(0.4, 0.3, 0.2), new THREE.Vector3(-1, 2, 1)]) {
-      const wanted = point.clone().project(camera);
+      const expected = point.clone().project(camera);
       const to = point.toArray().map((value, k) => value - m[12 + k]!);
       const along = (c: number) => to.reduce((sum, value, k) => sum + value * m[4 * c + k]!, 0);
       const t = Math.tan(made.yfov / 2);
-      expect(along(0) / (-along(2) * t * made.aspect!)).toBeCloseTo(wanted.x, 6);
-      expect(along(1) / (-along(2) * t)).toBeCloseTo(wanted.y, 6);
+      expect(along(0) / (-along(2) * t * made.aspect!)).toBeCloseTo(expected.x, 6);
+      expect(along(1) / (-along(2) * t)).toBeCloseTo(expected.y, 6);
     }
     const flat = new THREE.OrthographicCamera(-4, 4, 3, -1, 0.1, 10);
     const ortho = (await fromThree(new THREE.Mesh(new THREE.BoxGeometry(), new THREE.MeshStandardMaterial()), flat))

@@ -38,10 +38,12 @@ describe('textures', () => {
       for (let corner = 0; corner < indices.length; corner++) {
         const [u, v] = [uvs![0]![2 * indices[corner]!]!, uvs![0]![2 * indices[corner]! + 1]!];
         const i = index!.getX(corner);
-        const wanted = new THREE.Vector2(attributes['uv']!.getX(i), attributes['uv']!.getY(i)).applyMatrix3(map.matrix);
+        const expected = new THREE.Vector2(attributes['uv']!.getX(i), attributes['uv']!.getY(i)).applyMatrix3(
+          map.matrix,
+        );
         // Three's own image has its first row at v = 0, unless it is turned over.
-        const row = flipY ? 1 - wanted.y : wanted.y;
-        expect(a * u + c * v + x).toBeCloseTo(wanted.x, 5);
+        const row = flipY ? 1 - expected.y : expected.y;
+        expect(a * u + c * v + x).toBeCloseTo(expected.x, 5);
         expect(b * u + d * v + y).toBeCloseTo(row, 5);
       }
       expect(scene.images[0]!.data).toEqual(map.image.data);

@@ -139,8 +139,8 @@ describe('ToneMapPass', () => {
     const cpu = toneMapPixels(ramp, SIZE, SIZE, { toneMap: 'neutral', exposure: 0.5, output: 'float' });
     for (let i = 0; i < gpu.length; i++) {
       const alpha = cpu[i | 3] as number;
-      const wanted = (i & 3) === 3 ? alpha * 255 : (cpu[i] as number) * alpha * 255;
-      if (!(Math.abs((gpu[i] as number) - wanted) <= 1)) expect.fail(`byte ${i}: GPU ${gpu[i]}, CPU ${wanted}`);
+      const expected = (i & 3) === 3 ? alpha * 255 : (cpu[i] as number) * alpha * 255;
+      if (!(Math.abs((gpu[i] as number) - expected) <= 1)) expect.fail(`byte ${i}: GPU ${gpu[i]}, CPU ${expected}`);
     }
     pass.destroy();
     source.destroy();
@@ -174,8 +174,8 @@ describe('ToneMapPass', () => {
     expect(at(bilinear, 0, 0)).toEqual([255, 0, 0]);
     // Pixel 32 sits at 32.5/64 × 2 − 0.5 = 0.515625 between the texels, in both directions.
     const t = 0.515625;
-    const wanted = [(1 - t) * (1 - t) + t * t, t, t].map((v) => Math.round(srgbEncode(v) * 255));
-    at(bilinear, 32, 32).forEach((v, k) => expect(Math.abs(v - (wanted[k] as number))).toBeLessThanOrEqual(1));
+    const expected = [(1 - t) * (1 - t) + t * t, t, t].map((v) => Math.round(srgbEncode(v) * 255));
+    at(bilinear, 32, 32).forEach((v, k) => expect(Math.abs(v - (expected[k] as number))).toBeLessThanOrEqual(1));
     pass.destroy();
     source.destroy();
   });

@@ -50,7 +50,7 @@ export class Display {
   /**
    * Compiles what drawing needs, and gives the canvas to the device. Where it throws, the caller destroys the device.
    *
-   * @param wanted Whether it is still wanted, once the shaders are there.
+   * @param requested Whether it is still wanted, once the shaders are there.
    * @throws {ToneMapError} `tonemap/pipeline`; {ViewerError} `viewer/no-canvas`, `viewer/gpu`, `viewer/out-of-memory`;
    * `viewer/destroyed` where it is not wanted any more.
    */
@@ -58,7 +58,7 @@ export class Display {
     canvas: HTMLCanvasElement,
     device: GPUDevice,
     view: ToneMapOptions,
-    wanted: () => boolean,
+    requested: () => boolean,
   ): Promise<Display> {
     const format = navigator.gpu.getPreferredCanvasFormat();
     let uniforms: GPUBuffer;
@@ -69,7 +69,7 @@ export class Display {
     passing.catch(() => undefined);
     try {
       const [pass, blend] = await Promise.all([passing, compileBlend(device)]);
-      if (!wanted()) throw destroyed();
+      if (!requested()) throw destroyed();
       const context = canvas.getContext('webgpu');
       if (!context)
         throw new ViewerError('viewer/no-canvas', 'The canvas has a context of another kind: use a new one.');

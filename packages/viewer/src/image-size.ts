@@ -14,7 +14,7 @@ export function imageSize(
   ratio?: number,
   maxPixels = MAX_PIXELS,
 ): readonly [number, number] {
-  const wanted = ratio ?? Math.min(MAX_RATIO, devicePixelRatio || 1);
-  const factor = Math.min(wanted, Math.sqrt(maxPixels / Math.max(1, width * height)));
+  const requested = ratio ?? Math.min(MAX_RATIO, devicePixelRatio || 1);
+  const factor = Math.min(requested, Math.sqrt(maxPixels / Math.max(1, width * height)));
   return [Math.max(1, Math.round(width * factor)), Math.max(1, Math.round(height * factor))];
 }

@@ -23,11 +23,11 @@ export class Preparation {
   /**
    * Does ahead, until the first tracer is asked for, what would delay that one, see `warmUp` of the renderer.
    *
-   * @param wanted Undefined: unless the adapter is software, whose CPU is busy enough.
+   * @param requested Undefined: unless the adapter is software, whose CPU is busy enough.
    */
-  warmUp(device: GPUDevice, hierarchies: HierarchyBuilder, wanted: boolean | undefined): void {
+  warmUp(device: GPUDevice, hierarchies: HierarchyBuilder, requested: boolean | undefined): void {
     const { adapterInfo } = device as { readonly adapterInfo?: GPUAdapterInfo };
-    if (this.#warming.signal.aborted || !(wanted ?? !(adapterInfo && isSoftware(adapterInfo)))) return;
+    if (this.#warming.signal.aborted || !(requested ?? !(adapterInfo && isSoftware(adapterInfo)))) return;
     void warmUp(device, { hierarchies, signal: this.#warming.signal });
   }
 

@@ -34,7 +34,7 @@ interface ShownImage extends Pick<Emitter<ViewerEvents>, 'on'> {
 }
 
 /** What an image is to be, checked. */
-interface Wanted {
+interface ImageRequest {
   readonly size: readonly [number, number] | undefined;
   readonly samples: number;
   readonly noise: number | undefined;
@@ -44,7 +44,7 @@ interface Wanted {
 }
 
 /** @throws {ViewerError} `viewer/option` */
-function checked(viewer: ShownImage, options: BlobOptions, checks: Checks): Wanted {
+function checked(viewer: ShownImage, options: BlobOptions, checks: Checks): ImageRequest {
   const { width, height, samples, noise, background } = options;
   const { checkedOption, checkedSetting } = checks;
   for (const [name, value] of [
@@ -80,12 +80,12 @@ function checked(viewer: ShownImage, options: BlobOptions, checks: Checks): Want
 async function screenImage(
   viewer: ShownImage,
   engine: Engine,
-  wanted: Wanted,
+  requested: ImageRequest,
   { onProgress }: BlobOptions,
   signal: AbortSignal,
   checks: Checks,
 ): Promise<PathTracer | undefined> {
-  const { size, samples, noise, background, usual } = wanted;
+  const { size, samples, noise, background, usual } = requested;
   if (background !== viewer.background || (!usual && noise !== undefined)) return undefined;
   const whole = () => {
     const { tracer } = engine;
@@ -214,7 +214,7 @@ export async function imageBlob(
   options: BlobOptions,
   checks: Checks,
 ): Promise<Blob> {
-  const wanted = checked(viewer, options, checks);
+  const requested = checked(viewer, options, checks);
   const ended = new AbortController();
   const stop = viewer.on('state', ({ state }) => {
     if (state === 'destroyed') ended.abort(new DOMException('the viewer was destroyed', 'AbortError'));
@@ -223,10 +223,10 @@ export async function imageBlob(
   const view = { exposure: viewer.exposure, toneMap: viewer.toneMap };
   try {
     signal.throwIfAborted();
-    const shown = await screenImage(viewer, engine, wanted, options, signal, checks);
+    const shown = await screenImage(viewer, engine, requested, options, signal, checks);
     if (shown) return await fileOf(shown, engine, view, options, signal, checks);
-    const { samples, noise, background } = wanted;
-    const [width, height] = wanted.size ?? engine.imageSize;
+    const { samples, noise, background } = requested;
+    const [width, height] = requested.size ?? engine.imageSize;
     const tracer = await renderCopy(
       engine,
       {

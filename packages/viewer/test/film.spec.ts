@@ -90,7 +90,7 @@ async function glanz(browser: string, argv: readonly string[]): Promise<string> 
 /** How two lists of numbers differ. */
 interface Difference {
   readonly count: number;
-  readonly most: number;
+  readonly max: number;
   readonly of: number;
 }
 
@@ -158,11 +158,11 @@ test('three variants from four views by one command are what the viewer shows in
           ),
         ).toString('base64');
       const { film, image, hash } = await page.evaluate(
-        async ([wanted, look, exr, png, samples]) => {
+        async ([expected, look, exr, png, samples]) => {
           const { viewer } = window;
           const bytes = (text: string) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
           const degrees = /^(-?\d+),(-?\d+)$/
-            .exec(wanted)
+            .exec(expected)
             ?.slice(1)
             .map((value) => (Number(value) * Math.PI) / 180);
           const [a, e] = degrees ?? [0, 0];
@@ -173,7 +173,7 @@ test('three variants from four views by one command are what the viewer shows in
                   aspect: viewer.canvas.width / viewer.canvas.height,
                   direction: [Math.sin(a!) * Math.cos(e!), Math.sin(e!), Math.cos(a!) * Math.cos(e!)],
                 })
-              : wanted,
+              : expected,
             { immediate: true },
           );
           const blob = await viewer.toBlob({ samples });
@@ -195,7 +195,7 @@ test('three variants from four views by one command are what the viewer shows in
             return {
               of: left.length,
               count: left.length === right.length ? apart.filter((value) => value > 0).length : NaN,
-              most: apart.reduce((most, value) => Math.max(most, value), 0),
+              max: apart.reduce((max, value) => Math.max(max, value), 0),
             };
           };
           return {
@@ -211,7 +211,7 @@ test('three variants from four views by one command are what the viewer shows in
     }
   }
   const values = 4 * SIZE[0] * SIZE[1];
-  const same = { count: 0, most: 0, of: values };
+  const same = { count: 0, max: 0, of: values };
   expect(differences).toEqual(
     Object.fromEntries(Object.keys(differences).map((key) => [key, { film: same, image: same }])),
   );

@@ -69,7 +69,7 @@ export const done = (page: Page) =>
   expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the image is done' }).toBe('done');
 export const canvas = (page: Page) => page.locator('canvas');
 export const heard = (page: Page, type: string) =>
-  page.evaluate((wanted) => window.heard.filter((event) => event.type === wanted), type);
+  page.evaluate((expected) => window.heard.filter((event) => event.type === expected), type);
 export const shot = async (page: Page) => {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   // The ring around a canvas that has the keyboard is no part of the image.

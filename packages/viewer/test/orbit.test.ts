@@ -88,15 +88,15 @@ describe('OrbitRig', () => {
     const [theta, phi, radius] = [0.7, 1.1, 3];
     rig.setOrbit({ theta, phi, radius, target: [1, 2, 3] });
     rig.step(0.016);
-    const wanted = [
+    const expected = [
       1 + radius * Math.sin(phi) * Math.sin(theta),
       2 + radius * Math.cos(phi),
       3 + radius * Math.sin(phi) * Math.cos(theta),
     ];
-    eye(rig).forEach((value, k) => expect(value).toBeCloseTo(wanted[k] as number, 10));
+    eye(rig).forEach((value, k) => expect(value).toBeCloseTo(expected[k] as number, 10));
     // It looks at the target: its third axis points away from it.
     const m = rig.camera().transform;
-    [8, 9, 10].forEach((i, k) => expect(m[i]).toBeCloseTo(((wanted[k] as number) - [1, 2, 3][k]!) / radius, 10));
+    [8, 9, 10].forEach((i, k) => expect(m[i]).toBeCloseTo(((expected[k] as number) - [1, 2, 3][k]!) / radius, 10));
   });
 
   it('goes the short way round', () => {

@@ -25,7 +25,7 @@ it('reads halves and single floats', async () => {
   await expect(readNpy(npy('<i4', '(1, 1, 3)', floats))).rejects.toMatchObject({ code: 'bench/missing-data' });
 });
 
-it('measures as the catalogue does', () => {
+it('measures as the reference set does', () => {
   const reference = Float32Array.of(1, 1, 1, 0, 0, 0);
   // The mean square of the reference is 0.5; the second pixel has none of its own.
   const expected = (0.25 / 1.005 + 0.01 / 0.005) / 2;

@@ -48,8 +48,8 @@ async function request(options: TestDeviceOptions, errors: string[]): Promise<GP
       if (typeof value === 'number') requiredLimits[key] = value;
     }
   }
-  const wanted = options.features ?? ['timestamp-query', 'subgroups'];
-  const requiredFeatures = wanted.filter((feature) => adapter.features.has(feature)) as GPUFeatureName[];
+  const requested = options.features ?? ['timestamp-query', 'subgroups'];
+  const requiredFeatures = requested.filter((feature) => adapter.features.has(feature)) as GPUFeatureName[];
   const device = await adapter.requestDevice({ label: 'glanz test', requiredLimits, requiredFeatures });
   device.addEventListener('uncapturederror', (event) => {
     event.preventDefault();

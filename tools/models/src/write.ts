@@ -12,8 +12,8 @@ const MODELS = {
 
 /** Writes the named models, or all of them, as .glb files. Gives the exit code. */
 export async function writeModels(folder: string, names: readonly string[]): Promise<number> {
-  const wanted = names.length > 0 ? names : Object.keys(MODELS);
-  for (const name of wanted) {
+  const requested = names.length > 0 ? names : Object.keys(MODELS);
+  for (const name of requested) {
     const make = MODELS[name as keyof typeof MODELS];
     if (!make) {
       process.stderr.write(`There is no model "${name}"; models: ${Object.keys(MODELS).join(', ')}.\n`);

@@ -10,7 +10,8 @@ import draco from 'draco3dgltf';
 import { commandsFrom, fileFrom, installedBy, linesOf, Project, quickStart } from './project';
 
 const only = process.env['GLANZ_NEWCOMER_ONLY'];
-const wanted = (name: string) => test.skip(only !== undefined && only !== name, 'GLANZ_NEWCOMER_ONLY asks for another');
+const requested = (name: string) =>
+  test.skip(only !== undefined && only !== name, 'GLANZ_NEWCOMER_ONLY asks for another');
 
 test.setTimeout(600_000);
 test.use({ viewport: { width: 480, height: 320 } });
@@ -87,7 +88,7 @@ function report(name: string, lines: number, seconds: Record<string, number>): v
 }
 
 test('plain TypeScript', async ({ page: browser }) => {
-  wanted('typescript');
+  requested('typescript');
   project = new Project('typescript');
   project.manifest({}, VITE);
   project.write('tsconfig.json', TSCONFIG);
@@ -135,7 +136,7 @@ async function asPasted(
 }
 
 test('Getting started, its files and commands', async ({ page: browser }) => {
-  wanted('start');
+  requested('start');
   await asPasted(
     browser,
     'start',
@@ -147,18 +148,18 @@ test('Getting started, its files and commands', async ({ page: browser }) => {
 });
 
 test('Getting started, without the viewer', async ({ page: browser }) => {
-  wanted('canvas');
+  requested('canvas');
   const files = ['index.html', 'src/show.ts', 'src/main.ts'];
   await asPasted(browser, 'canvas', 'getting-started', files, '@glanz/renderer', 'In a browser, without the viewer');
 });
 
 test('the renderer, as its README begins', async ({ page: browser }) => {
-  wanted('renderer');
+  requested('renderer');
   await asPasted(browser, 'renderer', '@glanz/renderer', ['index.html', 'src/main.ts'], 'create vite');
 });
 
 test('Getting started, in Node', async ({ page: browser }) => {
-  wanted('node');
+  requested('node');
   project = new Project('node');
   const section = 'In Node';
   const foreign = installedBy('getting-started', '@glanz/renderer', section).filter(
@@ -181,7 +182,7 @@ test('Getting started, in Node', async ({ page: browser }) => {
 });
 
 test('the element with a bundler', async ({ page: browser }) => {
-  wanted('element');
+  requested('element');
   project = new Project('element');
   // The guide and the README say the same, so one of them is run.
   expect(fileFrom('element', 'index.html')).toBe(fileFrom('@glanz/element', 'index.html'));
@@ -197,7 +198,7 @@ test('the element with a bundler', async ({ page: browser }) => {
 });
 
 test('two lines of plain HTML, the element from another origin', async ({ page: browser }) => {
-  wanted('html');
+  requested('html');
   project = new Project('html');
   const code = quickStart('element', 'html');
   project.manifest({}, VITE);
@@ -215,7 +216,7 @@ test('two lines of plain HTML, the element from another origin', async ({ page: 
 });
 
 test('React', async ({ page: browser }) => {
-  wanted('react');
+  requested('react');
   project = new Project('react');
   const code = fileFrom('react', 'src/App.tsx');
   // The guide and the README say the same, so one of them is run.
@@ -251,7 +252,7 @@ test('React', async ({ page: browser }) => {
 });
 
 test('a page that a server rendered', async ({ page: browser }) => {
-  wanted('server');
+  requested('server');
   project = new Project('server');
   const code = fileFrom('react', 'src/App.tsx');
   project.manifest(
@@ -295,7 +296,7 @@ test('a page that a server rendered', async ({ page: browser }) => {
 });
 
 test('Next.js', async ({ page: browser }) => {
-  wanted('next');
+  requested('next');
   project = new Project('next');
   project.manifest(
     { next: '^16.4.6', react: '^19.3.1', 'react-dom': '^19.3.1' },

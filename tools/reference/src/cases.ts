@@ -1,4 +1,4 @@
-/** A scene of the catalogue that Glanz can render by now. */
+/** A scene of the reference set that Glanz can render by now. */
 export interface GroundTruthCase {
   readonly scene: string;
   readonly variant: string;

@@ -1,4 +1,4 @@
-import type { ReferenceImage, Tolerance } from './catalogue';
+import type { ReferenceImage, Tolerance } from './reference-set';
 import { ReferenceError } from './error';
 
 /** One test of {@link compareImages}. */

@@ -1,4 +1,10 @@
-export { GroundTruth, catalogueFolder, type ReferenceImage, type SceneDescription, type Tolerance } from './catalogue';
+export {
+  GroundTruth,
+  referenceFolder,
+  type ReferenceImage,
+  type SceneDescription,
+  type Tolerance,
+} from './reference-set';
 export { compareImages, failures, relMse, type Check, type Comparison } from './compare';
 export { ReferenceError } from './error';
 export {

@@ -1,7 +1,7 @@
 import { PathTracer, type PathTracerOptions } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 import { compareImages, type Comparison } from './compare';
-import type { GroundTruth } from './catalogue';
+import type { GroundTruth } from './reference-set';
 
 /**
  * Renders a scene, and gives its image at each of these numbers of samples: RGB, stride 3, linear, top row first.
@@ -52,7 +52,7 @@ export interface GroundTruthOptions {
   readonly sampler?: NonNullable<PathTracerOptions['sampler']>;
 }
 
-/** How a scene of the catalogue is rendered: as its reference was, with single scattering. */
+/** How a scene of the reference set is rendered: as its reference was, with single scattering. */
 export function groundTruthOptions(
   truth: GroundTruth,
   { variant = 'full', seed = 0, sampler = 'blue-noise' }: Omit<GroundTruthOptions, 'samples' | 'noise'>,
@@ -61,7 +61,7 @@ export function groundTruthOptions(
   return { width, height, seed, sampler, maxDepth: truth.maxDepth(variant), camera: 0, multipleScattering: false };
 }
 
-/** Renders a scene of the catalogue the way its reference was and compares. */
+/** Renders a scene of the reference set the way its reference was and compares. */
 export async function renderGroundTruth(
   device: GPUDevice,
   truth: GroundTruth,

@@ -1,5 +1,5 @@
 import { relMse } from './compare';
-import type { GroundTruth } from './catalogue';
+import type { GroundTruth } from './reference-set';
 import { groundTruthOptions, renderImages } from './render';
 
 /** An error that was measured at some number of samples. */

@@ -3,7 +3,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { afterEach, describe, expect, it, vi } from 'vitest';
 import { GROUND_TRUTH_CASES } from '../src/cases';
-import type { ReferenceImage, Tolerance } from '../src/catalogue';
+import type { ReferenceImage, Tolerance } from '../src/reference-set';
 import { compareImages, failures, relMse } from '../src/compare';
 
 const size = { width: 128, height: 128 };
@@ -91,7 +91,7 @@ describe('compareImages', () => {
   afterEach(() => vi.unstubAllEnvs());
 
   it.runIf(existsSync(script))(
-    'agrees with the script that came with the catalogue in full precision (skipped where that is absent)',
+    'agrees with the script that came with the reference set in full precision (skipped where that is absent)',
     async () => {
       vi.stubEnv('GLANZ_GROUNDTRUTH', join(full, 'scenes'));
       const other = (await import(/* @vite-ignore */ pathToFileURL(script).href)) as {
@@ -102,7 +102,7 @@ describe('compareImages', () => {
         ): { ok: boolean; relMSE: number; efficiency: number; checks: { value: number; limit: number; ok: boolean }[] };
         loadRef(folder: string): { img: Float32Array };
       };
-      const { GroundTruth } = await import('../src/catalogue');
+      const { GroundTruth } = await import('../src/reference-set');
       for (const name of ['cornell_diffuse', 'furnace_metal', 'env_sun']) {
         const truth = new GroundTruth(name);
         const image = truth.image();
@@ -125,12 +125,12 @@ describe('compareImages', () => {
   );
 });
 
-describe('the catalogue', () => {
+describe('the reference set', () => {
   const full = join(import.meta.dirname, '../../../../shared/groundtruth/scenes');
   afterEach(() => vi.unstubAllEnvs());
 
   it('has all references, finite, of the size of the film', async () => {
-    const { GroundTruth } = await import('../src/catalogue');
+    const { GroundTruth } = await import('../src/reference-set');
     for (const { scene, variant } of GROUND_TRUTH_CASES) {
       const truth = new GroundTruth(scene);
       const { mean, standardError } = truth.image(variant);
@@ -147,7 +147,7 @@ describe('the catalogue', () => {
   it.runIf(existsSync(full))(
     'is that in full precision, rounded to half floats (skipped where that is absent)',
     async () => {
-      const { GroundTruth } = await import('../src/catalogue');
+      const { GroundTruth } = await import('../src/reference-set');
       for (const { scene, variant } of GROUND_TRUTH_CASES) {
         const half = new GroundTruth(scene).image(variant);
         vi.stubEnv('GLANZ_GROUNDTRUTH', full);

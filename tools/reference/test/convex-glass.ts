@@ -30,9 +30,9 @@ function reflectance(eta: number, cosine: number): number {
  * precision, without any offset of rays, by planes alone. Nothing of it is Glanz's.
  *
  * @returns A function that gives the part of a ray's energy that leaves within so many edges, for each number of edges
- * up to `most`.
+ * up to `maxEdges`.
  */
-export function convexGlass({ positions, indices, ior }: ConvexGlass, most: number) {
+export function convexGlass({ positions, indices, ior }: ConvexGlass, maxEdges: number) {
   const corner = (i: number): Vector => [0, 1, 2].map((k) => positions[3 * indices[i]! + k]!) as unknown as Vector;
   const facets = Array.from({ length: indices.length / 3 }, (_, t) => {
     const [a, b, c] = [corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)];
@@ -80,7 +80,7 @@ export function convexGlass({ positions, indices, ior }: ConvexGlass, most: numb
   };
 
   return (origin: Vector, direction: Vector): Float64Array => {
-    const left = new Float64Array(most + 1);
+    const left = new Float64Array(maxEdges + 1);
     const met = enter(origin, direction);
     if (!met) return left.fill(1, 1);
     let { n } = facets[met.facet]!;
@@ -94,7 +94,7 @@ export function convexGlass({ positions, indices, ior }: ConvexGlass, most: numb
     );
     let o = along(origin, met.t, direction);
     let from = met.facet;
-    for (let edges = 3; edges <= most; edges++) {
+    for (let edges = 3; edges <= maxEdges; edges++) {
       const exit = leave(o, d, from);
       ({ n } = facets[exit.facet]!);
       o = along(o, exit.t, d);
@@ -105,7 +105,7 @@ export function convexGlass({ positions, indices, ior }: ConvexGlass, most: numb
       d = along(d, -2 * cosine, n);
       from = exit.facet;
     }
-    for (let edges = 2; edges <= most; edges++) left[edges]! += left[edges - 1]!;
+    for (let edges = 2; edges <= maxEdges; edges++) left[edges]! += left[edges - 1]!;
     return left;
   };
 }

@@ -36,7 +36,7 @@ export function stateFor(
   before: State,
   { link, first }: { readonly link?: LinkContent | undefined; readonly first: boolean },
 ): State {
-  const wanted =
+  const requested =
     request.kind === 'sample'
       ? SAMPLES[request.name].environment
       : scene.environment
@@ -45,7 +45,7 @@ export function stateFor(
           ? 'studio'
           : before.environment;
   // An image that the user brought lights whatever comes.
-  const environment = first || before.environment === 'file' ? before.environment : wanted;
+  const environment = first || before.environment === 'file' ? before.environment : requested;
   const state: State = { ...forAnotherModel(before), environment, camera: scene.cameras.length > 0 ? 0 : -1 };
   if (link?.model !== nameOf(request)) return state;
   const { materials = {}, hidden = [], variant = null, clip = null, ...others } = link.state;

@@ -51,11 +51,11 @@ export class SceneTree {
 
   #fill(): void {
     const { scene } = this.#context.opened();
-    const wanted = this.#search.value.trim().toLowerCase();
+    const requested = this.#search.value.trim().toLowerCase();
     const name = (index: number) => scene.instances[index]?.name || `Part ${index + 1}`;
     const indices = scene.instances
       .map((_, index) => index)
-      .filter((index) => name(index).toLowerCase().includes(wanted));
+      .filter((index) => name(index).toLowerCase().includes(requested));
     const byMaterial = this.#order.value === 'material';
     if (byMaterial)
       indices.sort((a, b) => (scene.instances[a]?.material ?? 0) - (scene.instances[b]?.material ?? 0) || a - b);

@@ -15,19 +15,19 @@ const ROWS = 8;
  * Draws a small lat-long image so that the front (+Z) is in the middle, a few rows a step; it is seen with the last
  * one.
  *
- * @param wanted Whether to continue: another one may have taken its place.
+ * @param requested Whether to continue: another one may have taken its place.
  */
 export function* latLongSteps(
   canvas: HTMLCanvasElement,
   { width, height, data }: LatLongEnvironment,
-  wanted = () => true,
+  requested = () => true,
 ): Generator<void, void> {
   const context = canvas.getContext('2d');
   if (!context) return;
   const image = context.createImageData(canvas.width, canvas.height);
   for (let y = 0; y < canvas.height; y++) {
     if (y % ROWS === 0) yield;
-    if (!wanted()) return;
+    if (!requested()) return;
     const row = Math.floor(((y + 0.5) / canvas.height) * height);
     for (let x = 0; x < canvas.width; x++) {
       // u = ¾ is +Z; azimuth from there towards +X grows to the right, which is against u.

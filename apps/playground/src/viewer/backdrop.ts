@@ -73,14 +73,14 @@ function shrink(data: Float32Array, width: number, height: number, columns: numb
 function resample(
   data: Float32Array,
   count: number,
-  wanted: number,
+  requested: number,
   others: number,
   from: (i: number, other: number) => number,
   to: (i: number, other: number) => number,
 ): Float32Array {
-  const out = new Float32Array(wanted * others * 3);
-  const size = count / wanted;
-  for (let i = 0; i < wanted; i++) {
+  const out = new Float32Array(requested * others * 3);
+  const size = count / requested;
+  for (let i = 0; i < requested; i++) {
     const [begin, end] = [i * size, (i + 1) * size];
     for (let k = Math.floor(begin); k < Math.min(count, Math.ceil(end - 1e-9)); k++) {
       const share = (Math.min(end, k + 1) - Math.max(begin, k)) / size;

@@ -119,11 +119,11 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
   }
   if (changed('groups') && next.relight) {
     for (const name of new Set([...Object.keys(before.groups), ...Object.keys(next.groups)])) {
-      const wanted = next.groups[name] ?? { intensity: 1, color: [1, 1, 1] as const };
-      if (wanted !== before.groups[name])
+      const requested = next.groups[name] ?? { intensity: 1, color: [1, 1, 1] as const };
+      if (requested !== before.groups[name])
         session.relight((tracer) =>
           tracer.lightGroups.some((group) => group.name === name)
-            ? tracer.setLightGroup(name, wanted)
+            ? tracer.setLightGroup(name, requested)
             : Promise.resolve(),
         );
     }

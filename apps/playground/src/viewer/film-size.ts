@@ -10,7 +10,7 @@ export function filmSize(
   scale: Scale,
   devicePixelRatio: number,
 ): readonly [number, number] {
-  const wanted = scale === 'device' ? devicePixelRatio : Number(scale);
-  const factor = Math.min(wanted, Math.sqrt(MAX_PIXELS / Math.max(1, width * height)));
+  const requested = scale === 'device' ? devicePixelRatio : Number(scale);
+  const factor = Math.min(requested, Math.sqrt(MAX_PIXELS / Math.max(1, width * height)));
   return [Math.max(1, Math.round(width * factor)), Math.max(1, Math.round(height * factor))];
 }

@@ -20,7 +20,7 @@ export interface LayerSource {
 export class LayerView {
   readonly #source: LayerSource;
   readonly #canvas: HTMLCanvasElement;
-  #wanted: Layer;
+  #requested: Layer;
   #busy = false;
   #next = 1;
 
@@ -28,14 +28,14 @@ export class LayerView {
   constructor(source: LayerSource, canvas: HTMLCanvasElement, layer: Layer) {
     this.#source = source;
     this.#canvas = canvas;
-    this.#wanted = layer;
+    this.#requested = layer;
     canvas.hidden = true;
     source.shown('beauty');
   }
 
   choose(layer: Layer): void {
-    if (layer === this.#wanted) return;
-    this.#wanted = layer;
+    if (layer === this.#requested) return;
+    this.#requested = layer;
     if (layer === 'beauty') {
       this.#canvas.hidden = true;
       this.#source.shown('beauty');
@@ -55,13 +55,13 @@ export class LayerView {
 
   async #read(): Promise<void> {
     const tracer = this.#source.tracer();
-    const layer = this.#wanted;
+    const layer = this.#requested;
     if (!tracer || layer === 'beauty' || this.#busy || !this.#source.fresh()) return;
     this.#busy = true;
     try {
       const { width, height } = tracer;
       const image = layerImage(layer, await tracer.read(layer));
-      if (tracer !== this.#source.tracer() || image.length !== width * height * 4 || layer !== this.#wanted) return;
+      if (tracer !== this.#source.tracer() || image.length !== width * height * 4 || layer !== this.#requested) return;
       this.#canvas.width = width;
       this.#canvas.height = height;
       this.#canvas
@@ -79,6 +79,6 @@ export class LayerView {
       this.#busy = false;
     }
     // Another one was chosen meanwhile.
-    if (layer !== this.#wanted) void this.#read();
+    if (layer !== this.#requested) void this.#read();
   }
 }

@@ -61,8 +61,8 @@ export async function applyPose(
     if (!same(transform, shown.instances[i]?.transform ?? [])) await tracer.setInstanceTransform(i, transform);
   for (const [i, light] of scene.lights.entries()) if (!alike(light, shown.lights[i])) await tracer.setLight(i, light);
   for (const [i, material] of scene.materials.entries()) {
-    const wanted: Values = { ...material.parameters, ...materials[i] };
-    if (!alike({ ...shown.materials[i]?.parameters, ...wanted }, shown.materials[i]?.parameters))
-      await tracer.setMaterial(i, wanted);
+    const requested: Values = { ...material.parameters, ...materials[i] };
+    if (!alike({ ...shown.materials[i]?.parameters, ...requested }, shown.materials[i]?.parameters))
+      await tracer.setMaterial(i, requested);
   }
 }

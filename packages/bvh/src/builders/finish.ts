@@ -81,7 +81,7 @@ export function* boundDepth(tree: DraftTree, maxDepth: number): Steps<void> {
   }
   if ((heights[rootOf(tree)] as number) <= maxDepth) return;
   const settled = new Uint8Array(places);
-  const least = (place: number) => 32 - Math.clz32((items[place] as number) - 1);
+  const min = (place: number) => 32 - Math.clz32((items[place] as number) - 1);
   for (const [i, node] of order.entries()) {
     const parent = parents[node] as number;
     const depth = parent < 0 ? 0 : (depths[parent] as number) + 1;
@@ -89,7 +89,7 @@ export function* boundDepth(tree: DraftTree, maxDepth: number): Steps<void> {
     if (parent >= 0 && settled[parent] === 1) settled[node] = 1;
     else if (depth + (heights[node] as number) <= maxDepth) settled[node] = 1;
     else if (
-      depth + 1 + Math.max(least(children[2 * node] as number), least(children[2 * node + 1] as number)) >
+      depth + 1 + Math.max(min(children[2 * node] as number), min(children[2 * node + 1] as number)) >
       maxDepth
     ) {
       flatten(tree, node);

@@ -13,18 +13,18 @@ export function depthOf({ nodes, nodeCount }: AnyNodes): number {
   const words = new Uint32Array(nodes.buffer, nodes.byteOffset, nodes.length);
   const wide = nodes.length === WIDE_WORDS * nodeCount;
   const depths = new Uint8Array(nodeCount).fill(1, 0, 1);
-  let most = 1;
+  let max = 1;
   // Wide nodes come after those above them.
   for (const node of wide ? depths.keys() : parentsFirst(words, nodeCount)) {
     if (!wide && node > 0) depths[node] = (depths[words[node * NODE_WORDS + PARENT] as number] as number) + 1;
     const depth = depths[node] as number;
-    most = Math.max(most, depth);
+    max = Math.max(max, depth);
     if (!wide) continue;
     const first = words[node * WIDE_WORDS + 4] as number;
     let inner = (words[node * WIDE_WORDS + 3] as number) >>> 24;
     for (let child = first; inner !== 0; inner &= inner - 1) depths[child++] = depth + 1;
   }
-  return most;
+  return max;
 }
 
 /** Entries that a ray's stack needs for such a TLAS and the deepest of these BLAS. */
@@ -38,8 +38,8 @@ export function stackSizeOf(tlas: AnyNodes, trees: Iterable<AnyNodes>): number {
 }
 
 /** @throws {BvhError} `bvh/options` */
-export function checkedStackSize(stackSize: number, most: number): number {
-  if (!(Number.isInteger(stackSize) && stackSize >= 3 && stackSize <= most))
-    throw new BvhError('bvh/options', `stackSize is ${stackSize}; it must be a whole number from 3 to ${most}.`);
+export function checkedStackSize(stackSize: number, max: number): number {
+  if (!(Number.isInteger(stackSize) && stackSize >= 3 && stackSize <= max))
+    throw new BvhError('bvh/options', `stackSize is ${stackSize}; it must be a whole number from 3 to ${max}.`);
   return stackSize;
 }

@@ -47,8 +47,8 @@ for (const seed of [1, 2, 3]) {
       group = new Agglomerator(0);
     for (let count = 1; count <= GROUP_MAX; count++) {
       fill(group, count, random);
-      const least = Math.ceil(Math.log2(count));
-      for (const height of [least, least + 1, 15]) {
+      const min = Math.ceil(Math.log2(count));
+      for (const height of [min, min + 1, 15]) {
         if (group.run(count) > height) group.run(count, true);
         expect(check(group, count).height).toBeLessThanOrEqual(height);
       }

@@ -330,7 +330,7 @@ describe('BvhWorkers', () => {
   it('warms up two at a time, and one after another all of them', async () => {
     const sent: Worker[] = [];
     const done: Worker[] = [];
-    let most = 0;
+    let max = 0;
     await create({
       count: 4,
       warmUp: true,
@@ -339,7 +339,7 @@ describe('BvhWorkers', () => {
         const post = made.postMessage.bind(made);
         made.postMessage = (message, transfer) => {
           if ((message as { kind: string }).kind === 'warm-up') sent.push(made);
-          most = Math.max(most, sent.length - done.length);
+          max = Math.max(max, sent.length - done.length);
           post(message, transfer as never);
         };
         made.on('message', ({ kind }: { kind: string }) => kind === 'warmed' && done.push(made));
@@ -348,7 +348,7 @@ describe('BvhWorkers', () => {
     });
     await vi.waitFor(() => expect(done).toHaveLength(4), { timeout: 30_000, interval: 20 });
     expect(new Set(sent).size).toBe(4);
-    expect(most).toBe(2);
+    expect(max).toBe(2);
   });
 
   it('asks no more workers than the triangles are worth', async () => {

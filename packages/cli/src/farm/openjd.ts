@@ -79,7 +79,7 @@ export function openJdTemplate(
     new Set(names).size === images.length &&
     variants.length * views.length === images.length &&
     Math.max(variants.length, views.length) <= MAX_LIST;
-  const parts = images.reduce((most, { requests }) => Math.max(most, requests.length), 1);
+  const parts = images.reduce((max, { requests }) => Math.max(max, requests.length), 1);
   const imageParameters = isMatrix
     ? [
         { name: 'Variant', type: 'STRING', range: variants },

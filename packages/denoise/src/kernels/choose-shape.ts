@@ -64,14 +64,14 @@ export function withGroups(
 ): KernelShape | undefined {
   if (pool && family.rows % 2 !== 0) return undefined;
   let best: KernelShape | undefined;
-  let least = Infinity;
+  let min = Infinity;
   for (let groups = 1; groups <= (family.maxGroups ?? 8); groups++) {
     const shape: KernelShape = { ...family, groups };
     if (stagedUpChannels(shape, up !== undefined) === 0 || groups * family.outputs >= channels + family.outputs) break;
     const computed = Math.ceil(channels / tileOutputs(shape)) * tileOutputs(shape);
-    if (computed > least) continue;
+    if (computed > min) continue;
     best = shape;
-    least = computed;
+    min = computed;
   }
   return best;
 }

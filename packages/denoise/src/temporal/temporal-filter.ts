@@ -316,11 +316,11 @@ export class TemporalFilter {
     const bytes = { color: 16, albedo: 16, normal: 16, position: 16, ids: 16, motion: 8 } as const;
     for (const [name, each] of Object.entries(bytes) as [keyof typeof bytes, number][]) {
       const buffer = frame[name];
-      const least = each * width * height;
-      if (buffer.size < least || !(buffer.usage & STORAGE))
+      const min = each * width * height;
+      if (buffer.size < min || !(buffer.usage & STORAGE))
         throw new DenoiseError(
           'denoise/input',
-          `"${name}" needs the usage STORAGE and ${least} bytes for ${width} × ${height} pixels; it has ${buffer.size}.`,
+          `"${name}" needs the usage STORAGE and ${min} bytes for ${width} × ${height} pixels; it has ${buffer.size}.`,
         );
     }
   }

@@ -203,8 +203,8 @@ export class FarmWorker {
       if (parts.every((part) => part))
         await this.#queue.addBulk([{ name: job.merge.kind, data: job.merge, opts: jobOptions(job.merge.id) }]);
     } else {
-      const wanted = (await this.#redis.call('SMEMBERS', this.#keys.destinations(job.id))) as string[];
-      for (const text of wanted) {
+      const destinations = (await this.#redis.call('SMEMBERS', this.#keys.destinations(job.id))) as string[];
+      for (const text of destinations) {
         const { root, paths } = JSON.parse(text) as Destination;
         await store.deliver(result, { root: outputRoot ?? root, paths });
       }

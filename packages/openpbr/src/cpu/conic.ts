@@ -29,11 +29,11 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
   const q = [-ax * towards[1], ay * towards[0]] as const;
   const square = q[0] * q[0] + q[1] * q[1];
   const skew = (p[0] * q[0] + p[1] * q[1]) / square;
-  const least = (ax * ay) ** 2 / square;
+  const min = (ax * ay) ** 2 / square;
 
   /** Of the facets within a conic, sin (ψ - ψ of the view), which is even among those that are seen. */
   const range = ([lean, upright]: Conic): readonly [first: number, last: number] => {
-    const a = flat * lean - least;
+    const a = flat * lean - min;
     const b = 0.5 * (flat * upright + wo[2] * lean);
     const c = wo[2] * upright - 1;
     const discriminant = b * b - a * c;
@@ -46,9 +46,7 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
   };
   /** The square of tan χ at the conic's bounds, about its middle. */
   const reach = ([lean, upright]: Conic, sinPsi: number, cosPsi: number): number =>
-    ((sinPsi * flat + cosPsi * wo[2]) * (sinPsi * lean + cosPsi * upright) -
-      least * sinPsi * sinPsi -
-      cosPsi * cosPsi) /
+    ((sinPsi * flat + cosPsi * wo[2]) * (sinPsi * lean + cosPsi * upright) - min * sinPsi * sinPsi - cosPsi * cosPsi) /
     square;
 
   const sum = (count: number, one: Conic, other: Conic, add: (weight: number, h: OpenPbrVector) => void): void => {

@@ -23,8 +23,8 @@ export function transmissionMedium(p: OpenPbrParameters): Medium {
   const depth = Math.max(p.transmission_depth, 1e-9);
   const scattering = rgb((i) => p.transmission_scatter[i] / depth);
   const absorption = rgb((i) => -Math.log(clamp(p.transmission_color[i], 1e-6, 1)) / depth - scattering[i]);
-  const least = Math.min(...absorption, 0);
-  return { extinction: rgb((i) => absorption[i] - least + scattering[i]), scattering, anisotropy };
+  const min = Math.min(...absorption, 0);
+  return { extinction: rgb((i) => absorption[i] - min + scattering[i]), scattering, anisotropy };
 }
 
 /**

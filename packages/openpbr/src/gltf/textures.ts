@@ -269,11 +269,11 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
     use('thin_film_weight', film.iridescenceTexture, 'r', 'linear', `${path}Texture`);
     const thin = film.iridescenceThicknessMinimum ?? 100,
       thick = film.iridescenceThicknessMaximum ?? 400;
-    const most = Math.max(thin, thick);
-    if (most > 0)
+    const max = Math.max(thin, thick);
+    if (max > 0)
       use('thin_film_thickness', film.iridescenceThicknessTexture, 'g', 'linear', `${path}ThicknessTexture`, {
-        value: most / 1000,
-        range: [thin / most, thick / most],
+        value: max / 1000,
+        range: [thin / max, thick / max],
       });
   }
   return { uses, lost };

@@ -40,8 +40,8 @@ const CHANNEL = { r: 0, g: 1, b: 2, a: 3 } as const;
 class Names {
   readonly #taken = new Set<string>();
 
-  unique(wanted: string): string {
-    const base = wanted.replaceAll(/[^A-Za-z0-9_]/g, '_').replace(/^(?=\d|$)/, '_');
+  unique(requested: string): string {
+    const base = requested.replaceAll(/[^A-Za-z0-9_]/g, '_').replace(/^(?=\d|$)/, '_');
     let name = base;
     for (let i = 1; this.#taken.has(name); i++) name = `${base}_${i}`;
     this.#taken.add(name);
@@ -119,16 +119,16 @@ function textureNodes(
     ]);
     type = 'float';
   }
-  const wanted = target === 'color3' ? 'color3' : 'float';
-  if (type !== wanted) {
+  const expected = target === 'color3' ? 'color3' : 'float';
+  if (type !== expected) {
     last =
-      wanted === 'float'
+      expected === 'float'
         ? make('extract', 'channel', 'float', [
             input('in', 'color3', { nodename: last }),
             input('index', 'integer', { value: '0' }),
           ])
         : make('convert', 'colour', 'color3', [input('in', 'float', { nodename: last })]);
-    type = wanted;
+    type = expected;
   }
   const number = (numbers: number | readonly number[]) =>
     type === 'color3'

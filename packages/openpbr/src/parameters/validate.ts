@@ -66,10 +66,10 @@ export function validateParameters(given: Partial<OpenPbrParameters>): Validated
       });
       continue;
     }
-    const wrong = (wanted: string) =>
+    const wrong = (allowed: string) =>
       new OpenPbrError(
         'openpbr/parameter-type',
-        `OpenPBR parameter "${name}" takes ${wanted}, got ${JSON.stringify(value) ?? String(value)}.`,
+        `OpenPBR parameter "${name}" takes ${allowed}, got ${JSON.stringify(value) ?? String(value)}.`,
       );
     const repair = (number: number, initial: number): number => {
       if (!Number.isFinite(number)) {

@@ -11,7 +11,7 @@ export function readFilmState(state: FilmState, layer: 'beauty' | 'variance'): F
   const { sums, parts, weights, ranges } = state;
   if (layer === 'beauty') return composeBeauty(state);
   // With catchers: the image in which they are visible surfaces, without the one that lacks the objects.
-  const first = state.planes > weights.first.length ? [...weights.first, ...weights.first] : weights.first;
+  const first = state.lightPasses > weights.first.length ? [...weights.first, ...weights.first] : weights.first;
   const partSamples = parts.reduce((sum, { chunk }) => sum + samplesInChunk(ranges, chunk), 0);
   const partSums =
     parts.length > 0
@@ -23,7 +23,7 @@ export function readFilmState(state: FilmState, layer: 'beauty' | 'variance'): F
 const LUMINANCE = [0.2126, 0.7152, 0.0722] as const;
 
 /** The twin of `film_compose` in `film.wesl`. */
-function composeBeauty({ width, height, planes, weights: { last }, sums }: FilmState): Float32Array<ArrayBuffer> {
+function composeBeauty({ width, height, lightPasses, weights: { last }, sums }: FilmState): Float32Array<ArrayBuffer> {
   const groups = last.length;
   const stride = 4 * width * height;
   const out = new Float32Array(stride);
@@ -33,16 +33,16 @@ function composeBeauty({ width, height, planes, weights: { last }, sums }: FilmS
     if (count === 0) continue;
     const mean = (first: number, c: number) => {
       let sum = 0;
-      for (let plane = first; plane < first + groups; plane++) {
-        const i = plane * stride + at + c;
-        sum += (c < 3 ? (last[plane - first]?.[c] as number) : 1) * ((total[i] as number) + (block[i] as number));
+      for (let pass = first; pass < first + groups; pass++) {
+        const i = pass * stride + at + c;
+        sum += (c < 3 ? (last[pass - first]?.[c] as number) : 1) * ((total[i] as number) + (block[i] as number));
       }
       return sum / count;
     };
     const rgb = (first: number) => [0, 1, 2].map((c) => mean(first, c)) as [number, number, number];
     const object = rgb(0);
     const alpha = mean(0, 3);
-    const coverage = planes > groups ? mean(groups, 3) : 0;
+    const coverage = lightPasses > groups ? mean(groups, 3) : 0;
     if (coverage <= 0) {
       out.set([...object, alpha], at);
       continue;

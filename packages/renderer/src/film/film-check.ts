@@ -4,10 +4,10 @@ import type { FilmState } from './film-state';
 export const sumLengths = ({
   width,
   height,
-  planes,
-}: Pick<FilmState, 'width' | 'height' | 'planes'>): Record<keyof FilmState['sums'], number> => {
+  lightPasses,
+}: Pick<FilmState, 'width' | 'height' | 'lightPasses'>): Record<keyof FilmState['sums'], number> => {
   const pixel = 4 * width * height;
-  return { film_block: planes * pixel, film_total: planes * pixel, film_moment: pixel, beauty: pixel };
+  return { film_block: lightPasses * pixel, film_total: lightPasses * pixel, film_moment: pixel, beauty: pixel };
 };
 
 /** The numbers of a film's samples, for people: `0–49, 100–149`. */
@@ -23,13 +23,14 @@ export const rangesText = ({ ranges }: Pick<FilmState, 'ranges'>): string =>
  */
 export function filmStateFault(
   state: FilmState,
-  film: Pick<FilmState, 'width' | 'height' | 'planes' | 'fingerprint'>,
+  film: Pick<FilmState, 'width' | 'height' | 'lightPasses' | 'fingerprint'>,
   tiles: number,
   chunks: readonly number[],
 ): string | undefined {
   if (state.width !== film.width || state.height !== film.height)
     return `it has ${state.width} × ${state.height} pixels, and this film has ${film.width} × ${film.height}`;
-  if (state.planes !== film.planes) return `it keeps ${state.planes} light sums apart, and this film ${film.planes}`;
+  if (state.lightPasses !== film.lightPasses)
+    return `it has ${state.lightPasses} light passes, not ${film.lightPasses}`;
   if (state.fingerprint !== film.fingerprint) return 'it is of another scene, camera, or other options';
   if (state.ranges.length !== 1)
     return `some of its samples are missing (it has ${rangesText(state)}); merge it with the films that have them`;

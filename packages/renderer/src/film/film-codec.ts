@@ -4,7 +4,7 @@ import { FILM_SUMS, type FilmPart, type FilmState } from './film-state';
 
 /** "GLZF", little-endian. */
 const MAGIC = 0x465a4c47;
-const VERSION = 2;
+const VERSION = 3;
 /** Magic, version, length of the JSON, checksum of all that follows. */
 const HEADER_BYTES = 16;
 
@@ -33,7 +33,7 @@ function checksum(bytes: Uint8Array<ArrayBuffer>): number {
 
 /**
  * A film as bytes, for a file: a header with a checksum, a line of JSON and the sums as they are (about
- * `32 × planes + 32` bytes a pixel). Little-endian; for this version of Glanz.
+ * `32 × lightPasses + 32` bytes a pixel). Little-endian; for this version of Glanz.
  */
 export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
   const { sampling, sums, parts: partial, ...rest } = state;
@@ -105,14 +105,14 @@ export function decodeFilmState(bytes: Uint8Array): FilmState {
     FILM_SUMS.map((name) => [name, new Float32Array(next(lengths[name]))]),
   ) as unknown as FilmState['sums'];
   const parts = head.parts.map((chunk): FilmPart => ({ chunk, sums: new Float32Array(next(lengths.film_total)) }));
-  const { width, height, samples, ranges, badSamples, planes, fingerprint, weights, sample, pixel, until } = head;
+  const { width, height, samples, ranges, badSamples, lightPasses, fingerprint, weights, sample, pixel, until } = head;
   return {
     width,
     height,
     samples,
     ranges,
     badSamples,
-    planes,
+    lightPasses,
     fingerprint,
     weights,
     parts,
@@ -121,7 +121,7 @@ export function decodeFilmState(bytes: Uint8Array): FilmState {
   };
 }
 
-const isWhole = (value: unknown, least: number) => Number.isSafeInteger(value) && (value as number) >= least;
+const isWhole = (value: unknown, min: number) => Number.isSafeInteger(value) && (value as number) >= min;
 const isWeights = (value: unknown) =>
   Array.isArray(value) &&
   value.every((weight) => Array.isArray(weight) && weight.length === 3 && weight.every(Number.isFinite));
@@ -148,10 +148,10 @@ function readHead(text: Uint8Array): Head {
       { cause },
     );
   }
-  const { width, height, planes, samples, ranges, badSamples, sample, pixel, until, counts, tiles } = head ?? {};
+  const { width, height, lightPasses, samples, ranges, badSamples, sample, pixel, until, counts, tiles } = head ?? {};
   const { fingerprint, weights, parts } = head ?? {};
   const whole =
-    [width, height, planes].every((value) => isWhole(value, 1)) &&
+    [width, height, lightPasses].every((value) => isWhole(value, 1)) &&
     [samples, badSamples, sample, pixel, until, counts].every((value) => isWhole(value, 0)) &&
     isWhole(tiles, -1);
   const lists = isRanges(ranges) && Array.isArray(parts) && parts.every((chunk) => isWhole(chunk, 0));

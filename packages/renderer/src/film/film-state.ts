@@ -1,7 +1,7 @@
 import type { SamplingState } from '../schedule/sampling';
 import type { GroupWeights } from './layers';
 
-/** The film's buffers that a {@link FilmState} holds, with vec4f per pixel: `planes` of them, or one. */
+/** The film's buffers that a {@link FilmState} holds, with vec4f per pixel: `lightPasses` of them, or one. */
 export const FILM_SUMS = ['film_block', 'film_total', 'film_moment', 'beauty'] as const;
 
 /** The samples of one chunk of 16, of which a film has a part. */
@@ -31,8 +31,8 @@ export interface FilmState {
   readonly ranges: readonly (readonly [first: number, end: number])[];
   /** Samples that were dropped because they were NaN, infinite or negative. */
   readonly badSamples: number;
-  /** Sums that the film keeps apart: one for each light group, four for each with catchers. */
-  readonly planes: number;
+  /** Light passes, which are sums of their own: one for each light group, four for each with catchers. */
+  readonly lightPasses: number;
   /** Hash of the options, the camera and the scene that the samples are of. */
   readonly fingerprint: string;
   /** Where sampling goes on. */
@@ -41,6 +41,6 @@ export interface FilmState {
   readonly weights: { readonly first: GroupWeights; readonly last: GroupWeights };
   /** Chunks of which samples are missing, in ascending order, except the one that `film_block` holds. */
   readonly parts: readonly FilmPart[];
-  /** The film's buffers, RGBA, stride 4, row-major, top row first; `film_block` and `film_total` plane by plane. */
+  /** The film's buffers, RGBA, stride 4, row-major, top row first; `film_block` and `film_total` one light pass after another. */
   readonly sums: Readonly<Record<(typeof FILM_SUMS)[number], Float32Array<ArrayBuffer>>>;
 }

@@ -4,8 +4,8 @@ import { TILE } from '../schedule/tile';
 import { AOV_BUFFERS, type AovBuffer } from './aovs';
 
 /**
- * The buffers of one image. Per pixel: a vec4f for each plane (light group) in `film_block` (samples of a chunk not
- * yet complete) and in `film_total` (complete chunks), planes one after another; `film_moment` for the variance;
+ * The buffers of one image. Per pixel: a vec4f for each light pass (light group) in `film_block` (samples of a chunk
+ * not yet complete) and in `film_total` (complete chunks), one pass after another; `film_moment` for the variance;
  * `beauty`; the pixel's number in `film_pixels`; in a film that begins in the middle of a chunk, that chunk's samples in
  * `film_head`, which `film_total` contains too; the AOVs that are requested. `film_noise` and `film_variance` are made
  * when they are first bound.
@@ -15,7 +15,7 @@ export class Film {
   readonly fullWidth: number;
   readonly fullHeight: number;
   /** Sums that are kept apart. */
-  readonly planes: number;
+  readonly lightPasses: number;
   readonly #memory: GpuMemory;
   readonly #buffers = new Map<string, GPUBuffer>();
   /** Bytes for each pixel; `film_noise` has tiles. */
@@ -25,13 +25,13 @@ export class Film {
   #whole = false;
 
   /** @param aovs Buffers of AOVs, see {@link keepAovs}. */
-  constructor(memory: GpuMemory, width: number, height: number, planes: number, aovs: readonly AovBuffer[] = []) {
+  constructor(memory: GpuMemory, width: number, height: number, lightPasses: number, aovs: readonly AovBuffer[] = []) {
     this.#memory = memory;
     this.fullWidth = width;
     this.fullHeight = height;
-    this.planes = planes;
-    this.#make('film_block', 16 * planes);
-    this.#make('film_total', 16 * planes);
+    this.lightPasses = lightPasses;
+    this.#make('film_block', 16 * lightPasses);
+    this.#make('film_total', 16 * lightPasses);
     this.#make('film_moment', 16);
     this.#make('beauty', 16);
     this.#make('film_pixels', 4);
@@ -122,7 +122,7 @@ export class Film {
 
   /** `film_head`, made when it is first used. */
   get head(): GPUBuffer {
-    return this.#buffers.get('film_head') ?? this.#make('film_head', 16 * this.planes);
+    return this.#buffers.get('film_head') ?? this.#make('film_head', 16 * this.lightPasses);
   }
 
   /** Frees buffers that were made when they were first bound; they are made again when they are bound again. */

@@ -8,7 +8,7 @@ export class GroupSettings {
   /** By name; groups that were never set are not in it. */
   readonly #set = new Map<string, LightGroup>();
 
-  /** @param names Of the groups that there are now, in the order of the film's planes. */
+  /** @param names Of the groups that there are now, in the order of the film's light passes. */
   constructor(names: () => readonly string[]) {
     this.#names = names;
   }
@@ -21,15 +21,15 @@ export class GroupSettings {
     return this.list.map(({ intensity, color }) => [intensity * color[0], intensity * color[1], intensity * color[2]]);
   }
 
-  /** The plane of a group. @throws {RenderError} `renderer/light-groups` if there is none of this name. */
-  plane(name: string): number {
-    const plane = this.#names().indexOf(name);
-    if (plane < 0)
+  /** The light pass of a group. @throws {RenderError} `renderer/light-groups` if there is none of this name. */
+  lightPass(name: string): number {
+    const pass = this.#names().indexOf(name);
+    if (pass < 0)
       throw new RenderError(
         'renderer/light-groups',
         `The scene has no light group "${name}"; it has: ${this.#names().join(', ')}.`,
       );
-    return plane;
+    return pass;
   }
 
   /**
@@ -38,7 +38,7 @@ export class GroupSettings {
    */
   set(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): () => void {
     const before = this.#set.get(name);
-    const next = { ...(this.list[this.plane(name)] as LightGroup), ...settings, name };
+    const next = { ...(this.list[this.lightPass(name)] as LightGroup), ...settings, name };
     if (![next.intensity, ...next.color].every((value) => value >= 0 && value < Infinity)) {
       throw new RenderError(
         'renderer/light-groups',

@@ -26,7 +26,7 @@ export type GroupWeights = readonly (readonly [number, number, number])[];
  * Variance of the image's mean, per pixel RGB, and the pixel's number of samples: what chunk means vary by, over the
  * number of chunks. `Infinity` before there are two.
  *
- * @param total Sums over complete chunks, plane by plane.
+ * @param total Sums over complete chunks, pass by pass.
  * @param moment Sums of squared chunk means, and the number of samples.
  * @param partSamples Samples of the total that belong to chunks that are not whole.
  * @param partSums Their sums.
@@ -44,8 +44,8 @@ export function varianceLayer(
     const chunks = Math.floor(Math.max(0, samples - partSamples) / FILM_CHUNK);
     for (let c = 0; c < 3; c++) {
       let sum = 0;
-      weights.forEach((weight, plane) => {
-        const i = plane * moment.length + at + c;
+      weights.forEach((weight, pass) => {
+        const i = pass * moment.length + at + c;
         sum += (weight[c] as number) * ((total[i] as number) - (partSums?.[i] ?? 0));
       });
       const mean = sum / (chunks * FILM_CHUNK);
@@ -64,7 +64,7 @@ export function groupLayer(
   total: Float32Array,
   block: Float32Array,
   moment: Float32Array,
-  plane: number,
+  pass: number,
   weight: readonly [number, number, number],
 ): Float32Array<ArrayBuffer> {
   const out = new Float32Array(moment.length);
@@ -73,7 +73,7 @@ export function groupLayer(
     for (let c = 0; c < 3; c++)
       out[at + c] =
         ((weight[c] as number) *
-          ((total[plane * out.length + at + c] as number) + (block[plane * out.length + at + c] as number))) /
+          ((total[pass * out.length + at + c] as number) + (block[pass * out.length + at + c] as number))) /
         count;
     out[at + 3] = ((total[at + 3] as number) + (block[at + 3] as number)) / count;
   }

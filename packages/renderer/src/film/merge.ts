@@ -89,7 +89,7 @@ function checked(film: FilmState): FilmState {
 function checkSame(film: FilmState, model: FilmState): void {
   if (film.width !== model.width || film.height !== model.height)
     throw refuse(`one has ${model.width} × ${model.height} pixels, another ${film.width} × ${film.height}`);
-  if (film.fingerprint !== model.fingerprint || film.planes !== model.planes)
+  if (film.fingerprint !== model.fingerprint || film.lightPasses !== model.lightPasses)
     throw refuse('they are of different scenes, cameras, or options');
   if (JSON.stringify(film.weights) !== JSON.stringify(model.weights))
     throw refuse('their light groups are not set alike; set them alike before saveFilm(), or after merging');
@@ -136,15 +136,15 @@ function addTo(sum: Float64Array, array: Float32Array): void {
 }
 
 /** Adds the square of a whole chunk's mean, as `resolve.wesl` does. */
-function addMoment(moment: Float64Array, sums: Float64Array, { planes, weights: { first } }: FilmState): void {
+function addMoment(moment: Float64Array, sums: Float64Array, { lightPasses, weights: { first } }: FilmState): void {
   const groups = first.length;
-  // With catchers, the planes of the image without the objects do not count.
-  const counted = Math.min(planes, 2 * groups);
+  // With catchers, the light passes of the image without the objects do not count.
+  const counted = Math.min(lightPasses, 2 * groups);
   for (let at = 0; at < moment.length; at += 4) {
     for (let c = 0; c < 3; c++) {
       let mean = 0;
-      for (let plane = 0; plane < counted; plane++)
-        mean += (first as GroupWeights)[plane % groups]![c]! * (sums[plane * moment.length + at + c] as number);
+      for (let pass = 0; pass < counted; pass++)
+        mean += (first as GroupWeights)[pass % groups]![c]! * (sums[pass * moment.length + at + c] as number);
       mean /= FILM_CHUNK;
       moment[at + c] = (moment[at + c] as number) + mean * mean;
     }

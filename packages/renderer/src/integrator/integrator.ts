@@ -67,7 +67,7 @@ export class Integrator {
     scene: ResourceProvider,
     features: KernelFeatures,
     film: Film,
-    wanted: number | undefined,
+    requested: number | undefined,
     limits: DepthLimits,
   ) {
     this.#device = device;
@@ -78,7 +78,7 @@ export class Integrator {
     this.limits = limits;
     const { adapterInfo } = device as { readonly adapterInfo?: GPUAdapterInfo };
     this.#counted = adapterInfo !== undefined && isSoftware(adapterInfo);
-    this.#paths = new PathMemory(device, memory, features, film.pixels, wanted, () => this.rebind('launch'));
+    this.#paths = new PathMemory(device, memory, features, film.pixels, requested, () => this.rebind('launch'));
   }
 
   /**

@@ -32,15 +32,15 @@ type LaunchBuffer =
   | 'dispatch';
 
 /** How many paths may be kept on the GPU at once. Large GPUs are known by the size of their buffers. */
-export function pathLimit(device: GPUDevice, wanted: number | undefined, features: KernelFeatures): number {
-  const most =
+export function pathLimit(device: GPUDevice, requested: number | undefined, features: KernelFeatures): number {
+  const max =
     BLOCK *
     Math.floor(
       device.limits.maxStorageBufferBindingSize /
         (BLOCK * Math.max(pathLayout(features).records.size, shadowRecords(features.flags).size)),
     );
   const standard = device.limits.maxBufferSize >= 2 ** 31 - 4 ? 1 << 22 : 1 << 20;
-  return Math.max(64, Math.min(wanted ?? standard, most, MAX_THREADS));
+  return Math.max(64, Math.min(requested ?? standard, max, MAX_THREADS));
 }
 
 /** The buffers of a launch: paths in flight with their queues, and the uniforms of a batch. */
@@ -48,7 +48,7 @@ export class PathMemory {
   readonly buffers: Record<LaunchBuffer, GPUBuffer>;
   readonly #device: GPUDevice;
   readonly #memory: GpuMemory;
-  readonly #wanted: number | undefined;
+  readonly #requested: number | undefined;
   readonly #onReplace: () => void;
   #features: KernelFeatures;
   #capacity: number;
@@ -59,7 +59,7 @@ export class PathMemory {
   /**
    * @param features Of the kernels that trace the paths.
    * @param pixels Of the film.
-   * @param wanted Paths in flight, by the option; default: by the device.
+   * @param requested Paths in flight, by the option; default: by the device.
    * @param onReplace Called when a buffer was replaced: bind groups with it are no longer right.
    */
   constructor(
@@ -67,13 +67,13 @@ export class PathMemory {
     memory: GpuMemory,
     features: KernelFeatures,
     pixels: number,
-    wanted: number | undefined,
+    requested: number | undefined,
     onReplace: () => void,
   ) {
     this.#device = device;
     this.#memory = memory;
     this.#features = features;
-    this.#wanted = wanted;
+    this.#requested = requested;
     this.#onReplace = onReplace;
     // A sample of the whole image; more when the GPU turns out to be fast.
     const capacity = Math.min(this.limit, Math.max(1 << 16, pixels));
@@ -105,7 +105,7 @@ export class PathMemory {
 
   /** Paths that there may be memory for. */
   get limit(): number {
-    return pathLimit(this.#device, this.#wanted, this.#features);
+    return pathLimit(this.#device, this.#requested, this.#features);
   }
 
   /**
@@ -114,7 +114,7 @@ export class PathMemory {
    */
   prepare(features: KernelFeatures): { readonly use: () => void; readonly discard: () => void } {
     // Paths that carry more may be too large for as many of them.
-    const capacity = Math.min(this.#capacity, pathLimit(this.#device, this.#wanted, features));
+    const capacity = Math.min(this.#capacity, pathLimit(this.#device, this.#requested, features));
     const made = this.#records(features, capacity);
     return {
       use: () => {
@@ -134,11 +134,11 @@ export class PathMemory {
 
   /** See `Integrator.room`. */
   room(paths: number): number {
-    const wanted = Math.min(paths, this.limit);
-    if (wanted > this.#capacity && wanted < this.#refused && !this.#growing) {
+    const requested = Math.min(paths, this.limit);
+    if (requested > this.#capacity && requested < this.#refused && !this.#growing) {
       this.#growing = true;
-      this.#grow(wanted)
-        .catch(() => (this.#refused = Math.min(this.#refused, wanted)))
+      this.#grow(requested)
+        .catch(() => (this.#refused = Math.min(this.#refused, requested)))
         .finally(() => (this.#growing = false));
     }
     return this.#capacity;

@@ -42,7 +42,7 @@ export interface KernelFeatures {
   readonly textureCount: number;
   readonly samplerCount: number;
   /** Sums of light that the film keeps apart: the number of light groups, four times that with catchers. */
-  readonly planes: number;
+  readonly lightPasses: number;
 }
 
 /** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
@@ -53,9 +53,9 @@ const HARMLESS =
  * Whether kernels for `present` features render `wanted` ones too: they may contain features that the scene no longer
  * has, so that a coat that comes and goes is compiled once.
  */
-export function serves(present: KernelFeatures, wanted: KernelFeatures): boolean {
+export function serves(present: KernelFeatures, requested: KernelFeatures): boolean {
   const { flags: has, ...given } = present;
-  const { flags: needs, ...asked } = wanted;
+  const { flags: needs, ...asked } = requested;
   if (JSON.stringify(given) !== JSON.stringify(asked)) return false;
   return Object.entries(needs).every(
     ([name, value]) =>
@@ -122,7 +122,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
   // What subsurface scatters depends on how its surface reflects.
   const walking: ResourceName[] = flags.OPENPBR_SUBSURFACE ? energy : [];
   const recording: ResourceName[] = flags.AOVS ? ['aov_batch'] : [];
-  const { module: path, planes } = pathLayout(features);
+  const { module: path, lightPasses } = pathLayout(features);
   const filmBuffers: ResourceName[] = [
     'film_block',
     'film_total',
@@ -215,7 +215,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'resolve':
       return {
         root: resolve,
-        host: [path, planes],
+        host: [path, lightPasses],
         resources: ['batch', 'paths', 'queues', 'film_pixels', ...filmBuffers],
         textures: false,
       };
@@ -250,13 +250,18 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         textures: false,
       };
     case 'relight':
-      return { root: FILM_KERNEL, host: [planes], resources: ['batch', ...filmBuffers], textures: false };
+      return { root: FILM_KERNEL, host: [lightPasses], resources: ['batch', ...filmBuffers], textures: false };
     case 'noise':
-      return { root: FILM_KERNEL, host: [planes], resources: ['frame', ...filmBuffers, 'film_noise'], textures: false };
+      return {
+        root: FILM_KERNEL,
+        host: [lightPasses],
+        resources: ['frame', ...filmBuffers, 'film_noise'],
+        textures: false,
+      };
     case 'variance':
       return {
         root: FILM_KERNEL,
-        host: [planes],
+        host: [lightPasses],
         resources: ['batch', ...filmBuffers, 'film_variance'],
         textures: false,
       };
@@ -303,7 +308,11 @@ export interface KernelSource {
 export function kernelSource(name: KernelName, features: KernelFeatures, root?: WgslModule): KernelSource {
   const text = kernelText(name, features);
   const own = text.flags ?? features.flags;
-  const flags = { ...own, BVH_FILTER: own.OPACITY === true || own.CULLING === true, PLANES: features.planes > 1 };
+  const flags = {
+    ...own,
+    BVH_FILTER: own.OPACITY === true || own.CULLING === true,
+    PASSES: features.lightPasses > 1,
+  };
   const groups = kernelBindings(text.resources, text.textures ? sceneBindings(features) : []);
   const bindings = bindingModule(name, groups, flags);
   const host = (text.host ?? []).filter((module) => !!module);

@@ -287,12 +287,12 @@ class LightTreeBuilder {
     this.#sweep(this.#left, 0, 1);
     this.#sweep(this.#right, BINS - 1, -1);
     let best = 1;
-    let least = Infinity;
+    let min = Infinity;
     for (let at = 1; at < BINS; at++) {
       const sum = (this.#left[at - 1] as number) + (this.#right[at] as number);
-      if (sum < least) {
+      if (sum < min) {
         best = at;
-        least = sum;
+        min = sum;
       }
     }
     return best;

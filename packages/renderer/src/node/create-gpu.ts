@@ -80,14 +80,14 @@ function objection(info: GPUAdapterInfo, options: GpuOptions): string | undefine
 
 /** Tries the drivers now in effect. Gives a GPU, or a reason. */
 async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | string> {
-  const wanted = options.gpu?.toLowerCase();
+  const requested = options.gpu?.toLowerCase();
   // Listing costs a driver start of its own, so the usual case does without.
   let names: (string | undefined)[] = [undefined];
-  if (wanted !== undefined || options.software === 'only') {
+  if (requested !== undefined || options.software === 'only') {
     const listed = await listAdapters(dawn);
     if (listed.length === 0) return 'no adapter';
     names = listed
-      .filter((adapter) => wanted === undefined || adapter.name.toLowerCase().includes(wanted))
+      .filter((adapter) => requested === undefined || adapter.name.toLowerCase().includes(requested))
       .map((adapter) => adapter.name);
     if (names.length === 0) return `only ${listed.map((adapter) => `"${adapter.name}"`).join(', ')}`;
   }

@@ -1,12 +1,12 @@
 import { gated, wgslModule, type WgslModule } from '@glanz/wgsl';
 import { blockLayout, type BlockLayout } from '../storage/blocks';
-import { filmPlanes } from '../storage/film-planes';
+import { filmLightPasses } from '../storage/film-light-passes';
 import path from './path.wesl';
 
 /** What decides how much a path carries. */
 export interface PathShape {
   /** Sums of light that are kept apart: one for each light group, four times as many with catchers. */
-  readonly planes: number;
+  readonly lightPasses: number;
   /**
    * With `PATH_STATE` paths remember what kinds of bounces they have made, with `CATCHER` what they are traced for,
    * with `MEDIA` the interiors they are in, with `AOVS` and the flags of single AOVs the words of `path_aov.wesl`.
@@ -23,8 +23,8 @@ export interface PathLayout {
    * and `path.wesl`.
    */
   readonly module: WgslModule;
-  /** The numbers of planes and groups, see {@link filmPlanes}. */
-  readonly planes: WgslModule;
+  /** The numbers of light passes and groups, see {@link filmLightPasses}. */
+  readonly lightPasses: WgslModule;
 }
 
 const layouts = new Map<string, PathLayout>();
@@ -72,13 +72,13 @@ const AOVS = {
 const WITH_AOVS = Object.keys(AOVS) as (keyof typeof AOVS)[];
 
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
-export function pathLayout({ planes, flags }: PathShape): PathLayout {
-  const key = `${planes} ${['PATH_STATE', 'CATCHER', 'MEDIA', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
+export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
+  const key = `${lightPasses} ${['PATH_STATE', 'CATCHER', 'MEDIA', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
   let layout = layouts.get(key);
   if (!layout) {
     const fields = {
       ...COMMON,
-      ...(planes > 1 ? { planes: ['vec4f', planes] as const } : { radiance: 'vec3f' as const }),
+      ...(lightPasses > 1 ? { light: ['vec4f', lightPasses] as const } : { radiance: 'vec3f' as const }),
       /** Index in the film. */ pixel: 'u32',
     } as const;
     const records = blockLayout('Path', 'path', 'paths', {
@@ -88,9 +88,9 @@ export function pathLayout({ planes, flags }: PathShape): PathLayout {
       ...(flags.MEDIA ? INTERIOR : {}),
       ...Object.assign({}, ...WITH_AOVS.map((flag) => (flags[flag] ? AOVS[flag] : {}))),
     });
-    const film = filmPlanes(planes, flags.CATCHER === true);
-    const module = wgslModule('renderer/path-of-scene', '', [records.module, gated('PLANES', film), path]);
-    layouts.set(key, (layout = { records, module, planes: film }));
+    const film = filmLightPasses(lightPasses, flags.CATCHER === true);
+    const module = wgslModule('renderer/path-of-scene', '', [records.module, gated('PASSES', film), path]);
+    layouts.set(key, (layout = { records, module, lightPasses: film }));
   }
   return layout;
 }

@@ -109,7 +109,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
     textured,
     textureCount: plan.arrays.length,
     samplerCount: plan.samplers.length,
-    planes: facts.groups * (facts.catchers ? 4 : 1),
+    lightPasses: facts.groups * (facts.catchers ? 4 : 1),
   };
 }
 

@@ -68,22 +68,23 @@ export function noisyTiles(errors: Float64Array, columns: number, target: number
 /**
  * Samples still to be taken in all, if errors go down as the root of the number of samples.
  *
- * @param most Samples that no pixel gets more of.
+ * @param max Samples that no pixel gets more of.
  */
 export function samplesLeft(
   tiles: readonly number[],
   errors: Float64Array,
   target: number,
-  most: number,
+  max: number,
   samplesOf: (tile: number) => number,
   pixelsOf: (tile: number) => number,
 ): number {
   let left = 0;
   for (const tile of tiles) {
     const samples = samplesOf(tile);
-    const wanted = samples * ((errors[tile] as number) / target) ** 2;
+    const requested = samples * ((errors[tile] as number) / target) ** 2;
     // Tiles end at the next look, not before.
-    left += Math.max(0, Math.min(most, nextCheck(Math.max(samples, Math.ceil(wanted) - 1))) - samples) * pixelsOf(tile);
+    left +=
+      Math.max(0, Math.min(max, nextCheck(Math.max(samples, Math.ceil(requested) - 1))) - samples) * pixelsOf(tile);
   }
   return left;
 }

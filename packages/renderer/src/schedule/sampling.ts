@@ -100,12 +100,12 @@ export class Sampling {
 
   /** Completed samples of the pixels that have most. */
   get samples(): number {
-    return Math.max(this.#scheduler.samples, this.#most()) - this.#first;
+    return Math.max(this.#scheduler.samples, this.#max()) - this.#first;
   }
 
   /** Highest number of the next sample of the tiles that are not under way. */
-  #most(): number {
-    return this.#under ? this.#counts.reduce((most, count) => Math.max(most, count), 0) : 0;
+  #max(): number {
+    return this.#under ? this.#counts.reduce((max, count) => Math.max(max, count), 0) : 0;
   }
 
   /** Paths that a batch may hold by now. */
@@ -159,14 +159,14 @@ export class Sampling {
         if (pace.noise !== undefined) yield this.#progress(goal, pace, 0);
         return;
       }
-      const [least, next = Infinity] = [...new Set(tiles.map((tile) => this.#counts[tile] as number))].sort(
+      const [min, next = Infinity] = [...new Set(tiles.map((tile) => this.#counts[tile] as number))].sort(
         (a, b) => a - b,
       ) as [number, number?];
       this.#take(
-        tiles.filter((tile) => this.#counts[tile] === least),
-        least,
+        tiles.filter((tile) => this.#counts[tile] === min),
+        min,
       );
-      this.#until = goal.noise === undefined ? 0 : Math.min(next, nextCheck(least));
+      this.#until = goal.noise === undefined ? 0 : Math.min(next, nextCheck(min));
       yield* this.#run(Math.min(goal.samples, goal.noise === undefined ? next : this.#until), goal, pace);
     }
   }
@@ -194,7 +194,7 @@ export class Sampling {
     const rest = left ?? this.#missing(goal.samples);
     return {
       // The scheduler is ahead by what is on its way.
-      samples: Math.max(samples - this.#first, this.#most() - this.#first, 0) || this.samples,
+      samples: Math.max(samples - this.#first, this.#max() - this.#first, 0) || this.samples,
       targetSamples: goal.samples - this.#first,
       elapsedMs,
       remainingMs: rest === 0 ? 0 : traced > 0 ? (rest * elapsedMs) / traced : Infinity,

@@ -119,12 +119,12 @@ export class EditSession {
     const { device, film, integrator, memory, restart } = this.#host;
     const number = ++this.#resizes;
     while (film.film.fullWidth !== width || film.film.fullHeight !== height) {
-      const { planes, flags } = integrator.kernels.features;
+      const { lightPasses, flags } = integrator.kernels.features;
       const aovs = aovBuffers(flags);
       const { result: next, verified } = inErrorScopes(
         device,
         `an image of ${width} × ${height} pixels`,
-        () => new Film(memory, width, height, planes, aovs),
+        () => new Film(memory, width, height, lightPasses, aovs),
       );
       await verified.catch((error: unknown) => {
         next.destroy();
@@ -133,7 +133,7 @@ export class EditSession {
       if (memory.destroyed) return;
       // Kernels that keep another number of sums apart have come meanwhile.
       const now = integrator.kernels.features;
-      if (number !== this.#resizes || planes !== now.planes || aovs.join() !== aovBuffers(now.flags).join()) {
+      if (number !== this.#resizes || lightPasses !== now.lightPasses || aovs.join() !== aovBuffers(now.flags).join()) {
         next.destroy();
         if (number !== this.#resizes) return;
         continue;
@@ -146,20 +146,20 @@ export class EditSession {
   /** Brings the kernels for the scene, the camera and the options as they are now, if those there will not do. */
   async #bringKernels(): Promise<void> {
     const { features, integrator } = this.#host;
-    const wanted = features();
+    const requested = features();
     const request = ++this.#requests;
-    if (serves(integrator.kernels.features, wanted)) {
+    if (serves(integrator.kernels.features, requested)) {
       this.#bringing = undefined;
       return this.#settle();
     }
-    this.#bringing = this.#compile(wanted, request);
+    this.#bringing = this.#compile(requested, request);
     await this.#bringing;
   }
 
-  async #compile(wanted: KernelFeatures, request: number): Promise<void> {
+  async #compile(requested: KernelFeatures, request: number): Promise<void> {
     const { cache, memory, restart } = this.#host;
     try {
-      const kernels = await cache.get(wanted);
+      const kernels = await cache.get(requested);
       while (this.#verifying) await this.#verifying;
       if (memory.destroyed) return;
       if (request === this.#requests && (await this.#use(kernels, () => request === this.#requests))) {
@@ -183,10 +183,10 @@ export class EditSession {
   }
 
   /** Puts kernels in place, with the buffers that they need. @returns Whether they are still wanted. */
-  async #use(kernels: KernelSet, wanted: () => boolean): Promise<boolean> {
+  async #use(kernels: KernelSet, requested: () => boolean): Promise<boolean> {
     const { device, film, integrator, memory } = this.#host;
     const before = film.film;
-    const { fullWidth: width, fullHeight: height, planes } = before;
+    const { fullWidth: width, fullHeight: height, lightPasses } = before;
     const aovs = aovBuffers(kernels.features.flags);
     const made: (() => void)[] = [];
     const discard = () => made.forEach((free) => free());
@@ -195,9 +195,9 @@ export class EditSession {
         const paths = integrator.prepare(kernels);
         made.push(paths.discard);
         const next =
-          kernels.features.planes === planes
+          kernels.features.lightPasses === lightPasses
             ? undefined
-            : new Film(memory, width, height, kernels.features.planes, aovs);
+            : new Film(memory, width, height, kernels.features.lightPasses, aovs);
         if (next) made.push(() => next.destroy());
         else {
           const added = aovs.filter((name) => !before.aovs.includes(name));
@@ -212,9 +212,9 @@ export class EditSession {
     });
     await this.#hold(verified, discard);
     const resized = film.film !== before;
-    if (memory.destroyed || !wanted() || resized) {
+    if (memory.destroyed || !requested() || resized) {
       discard();
-      return !memory.destroyed && wanted() ? this.#use(kernels, wanted) : false;
+      return !memory.destroyed && requested() ? this.#use(kernels, requested) : false;
     }
     result.paths.use();
     if (result.next) {

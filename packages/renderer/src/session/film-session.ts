@@ -27,7 +27,7 @@ export interface FilmHost {
   readonly memory: GpuMemory;
   readonly cache: KernelCache;
   readonly integrator: Integrator;
-  /** Names of the light groups that there are now, in the order of the film's planes. */
+  /** Names of the light groups that there are now, in the order of the film's light passes. */
   readonly groupNames: () => readonly string[];
   /** The frame uniforms for a film. */
   readonly packFrame: (film: Film) => ArrayBuffer;
@@ -234,11 +234,11 @@ export class FilmSession {
 
   /** See `PathTracer.readLightGroup`. */
   async readGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
-    const plane = this.groups.plane(name);
-    const weight = this.groups.weights[plane] as GroupWeights[number];
+    const pass = this.groups.lightPass(name);
+    const weight = this.groups.weights[pass] as GroupWeights[number];
     const [total, block, moment] = await Promise.all(this.reader.copy('film_total', 'film_block', 'film_moment'));
     const { groupLayer } = await import('../film/film-data');
-    return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, plane, weight);
+    return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, pass, weight);
   }
 
   /** See `PathTracer.setLightGroup`. */
@@ -259,12 +259,12 @@ export class FilmSession {
     const { device, integrator, fingerprint } = this.#host;
     // All copies are submitted in one turn, behind the batches that the sampling counts as given out.
     const sampling = (this.#sampling ??= this.#newSampling()).state;
-    const { width, height, planes } = this.#film;
+    const { width, height, lightPasses } = this.#film;
     const weights = { first: this.#firstWeights, last: this.groups.weights };
     const first = this.#first;
     // What is saved may have to be restored where nothing can be fetched.
     import('../film/film-data').catch(() => {});
-    const head = { width, height, planes, weights, sampling, fingerprint: fingerprint() };
+    const head = { width, height, lightPasses, weights, sampling, fingerprint: fingerprint() };
     const [counters, part, ...sums] = await Promise.all([
       readBuffer(device, integrator.queues, COUNTERS),
       this.reader.head(sampling.sample),
@@ -273,7 +273,7 @@ export class FilmSession {
     this.#count(counters);
     const end = Math.max(
       sampling.sample,
-      sampling.tiles ? sampling.counts.reduce((most, count) => Math.max(most, count), 0) : 0,
+      sampling.tiles ? sampling.counts.reduce((max, count) => Math.max(max, count), 0) : 0,
     );
     const parts = part ? [{ chunk: Math.floor(first / FILM_CHUNK), sums: part }] : [];
     const named = Object.fromEntries(FILM_SUMS.map((name, i) => [name, sums[i]])) as unknown as FilmState['sums'];
@@ -286,12 +286,12 @@ export class FilmSession {
     const { filmStateFault } = await import('../film/film-data');
     check();
     const film = this.#film;
-    const { width, height, planes } = film;
+    const { width, height, lightPasses } = film;
     const first = state.ranges[0]?.[0] ?? 0;
     const chunks =
       headSamples(first) > 0 && state.sampling.sample >= headEnd(first) ? [Math.floor(first / FILM_CHUNK)] : [];
     const tiles = new TileGrid(width, height).count;
-    const fault = filmStateFault(state, { width, height, planes, fingerprint: fingerprint() }, tiles, chunks);
+    const fault = filmStateFault(state, { width, height, lightPasses, fingerprint: fingerprint() }, tiles, chunks);
     if (fault) throw new RenderError('renderer/film-state', `The saved film cannot be resumed here: ${fault}.`);
     this.restart('invalidates', first);
     const { verified } = inErrorScopes(device, 'the saved film', () => {
@@ -343,8 +343,8 @@ export class FilmSession {
         sound.catch(() => {});
         return sound;
       },
-      room: (wanted: number) =>
-        Math.floor(integrator.room(wanted * integrator.pathsPerSample) / integrator.pathsPerSample),
+      room: (requested: number) =>
+        Math.floor(integrator.room(requested * integrator.pathsPerSample) / integrator.pathsPerSample),
       ready,
       check,
       setPixels: (list: Uint32Array<ArrayBuffer> | undefined) => film.setPixels(list),

@@ -6,7 +6,7 @@ const state = (tiles?: Uint32Array<ArrayBuffer>): FilmState => {
   return {
     width: 9,
     height: 2,
-    planes: 3,
+    lightPasses: 3,
     samples: 17,
     ranges: [[3, 20]],
     badSamples: 2,

@@ -32,7 +32,7 @@ async function image(
 }
 
 const largest = (a: Float32Array, b: Float32Array) =>
-  a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
+  a.reduce((max, value, i) => Math.max(max, Math.abs(value - (b[i] as number))), 0);
 const mean = (pixels: Float32Array) => meanOf(pixels, 12, 0, 0, 12, 12)[1];
 
 /** A floor in the image, a wall beside it, and a small light above. */

@@ -161,12 +161,12 @@ describe('cameras', () => {
       const seen = await aperture({ ...lens, lens_blades: blades, lens_rotation: rotation });
       // Distance to the nearest edge line of the polygon with corners at rotation + 2πk/n; positive inside.
       const depth = (x: number, y: number) => {
-        let least = Infinity;
+        let min = Infinity;
         for (let k = 0; k < blades; k++) {
           const middle = rotation + ((k + 0.5) * 2 * Math.PI) / blades;
-          least = Math.min(least, Math.cos(Math.PI / blades) - (x * Math.cos(middle) + y * Math.sin(middle)));
+          min = Math.min(min, Math.cos(Math.PI / blades) - (x * Math.cos(middle) + y * Math.sin(middle)));
         }
-        return least;
+        return min;
       };
       const inside = seen.filter(({ x, y }) => depth(x, y) > 0.14);
       const mean = inside.reduce((sum, { value }) => sum + value, 0) / inside.length;

@@ -59,7 +59,7 @@ async function image(
   return pixels;
 }
 const largest = (a: Float32Array, b: Float32Array) =>
-  a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
+  a.reduce((max, value, i) => Math.max(max, Math.abs(value - (b[i] as number))), 0);
 const luminance = (r: number, g: number, b: number) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
 /** For each pixel whether all of it is floor, ball, or nothing: found by alpha and ids of ordinary images. */
@@ -89,7 +89,7 @@ describe('catchers', () => {
       } satisfies Material,
       0.01,
     ],
-  ])('%s: what two renders, with and without the object, say', async (_, floor, least) => {
+  ])('%s: what two renders, with and without the object, say', async (_, floor, min) => {
     const found = await image(scene({ catcher: true, floor }), { background: 'transparent' });
     const over = await image(scene({ catcher: true, floor }));
     const kept = await image(scene({ floor }));
@@ -133,7 +133,7 @@ describe('catchers', () => {
     expect(counts.ball).toBeGreaterThan(5);
     expect(counts.sky).toBeGreaterThan(10);
     expect(shadowed).toBeGreaterThan(1);
-    expect(added).toBeGreaterThan(least);
+    expect(added).toBeGreaterThan(min);
   });
 
   it('the same image whatever the batches, and relit without a sample', async () => {

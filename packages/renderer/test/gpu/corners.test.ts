@@ -45,7 +45,7 @@ async function brightest(corners: number, far: number, samples: number): Promise
   for await (const progress of tracer.render({ samples })) void progress;
   const beauty = await tracer.read('beauty');
   tracer.destroy();
-  return beauty.reduce((most, value, i) => (i % 4 === 3 ? most : Math.max(most, value)), 0);
+  return beauty.reduce((max, value, i) => (i % 4 === 3 ? max : Math.max(max, value)), 0);
 }
 
 describe('no light comes through the corners of a closed room', () => {

@@ -115,13 +115,13 @@ describe('wavelengths', () => {
     const curves = matchingCurves();
     for (const k of [0, 1, 2] as const) {
       const seen = new Float64Array(81);
-      const wanted = new Float64Array(81);
+      const expectedBins = new Float64Array(81);
       for (const { wavelength, carried } of drawn) seen[Math.floor((wavelength - 380) / 5)]! += carried[k] / PAIRS;
-      curves[k]!.forEach((value, i) => (wanted[Math.floor(i / 5)]! += value));
+      curves[k]!.forEach((value, i) => (expectedBins[Math.floor(i / 5)]! += value));
       // Half the sum of differences: the share of the answer that lies elsewhere.
-      expect(0.5 * seen.reduce((sum, value, i) => sum + Math.abs(value - wanted[i]!), 0)).toBeLessThan(0.08);
+      expect(0.5 * seen.reduce((sum, value, i) => sum + Math.abs(value - expectedBins[i]!), 0)).toBeLessThan(0.08);
       const mean = (values: Float64Array) => values.reduce((sum, value, i) => sum + value * (382.5 + 5 * i), 0);
-      expect(Math.abs(mean(seen) - mean(wanted))).toBeLessThan(2);
+      expect(Math.abs(mean(seen) - mean(expectedBins))).toBeLessThan(2);
     }
   });
 });

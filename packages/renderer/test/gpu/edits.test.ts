@@ -59,7 +59,7 @@ async function fresh(scene: Scene): Promise<Float32Array> {
   return pixels;
 }
 const largest = (a: Float32Array, b: Float32Array) =>
-  a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
+  a.reduce((max, value, i) => Math.max(max, Math.abs(value - (b[i] as number))), 0);
 
 /** Counts what is compiled while something runs. */
 async function compiled(run: () => Promise<unknown>): Promise<string[]> {

@@ -175,8 +175,7 @@ describe('films of different samples', () => {
 
   /** Largest difference of two layers relative to the values, in units of 2⁻²³. */
   const difference = (a: Float32Array, b: Float32Array) =>
-    a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i]!) / Math.max(Math.abs(value), 1e-20)), 0) *
-    2 ** 23;
+    a.reduce((max, value, i) => Math.max(max, Math.abs(value - b[i]!) / Math.max(Math.abs(value), 1e-20)), 0) * 2 ** 23;
 
   it('merge to what one run gives, in either order, in three parts, and go on from there', async () => {
     const whole = await range(0, 100);
@@ -254,7 +253,7 @@ describe('films of different samples', () => {
     expect(
       variance
         .filter((_, i) => i % 4 < 3)
-        .reduce((most, value, i) => Math.max(most, Math.abs(value - inner.filter((_v, k) => k % 4 < 3)[i]!)), 0),
+        .reduce((max, value, i) => Math.max(max, Math.abs(value - inner.filter((_v, k) => k % 4 < 3)[i]!)), 0),
     ).toBeLessThan(1e-6);
     expect(difference(await tracer.read('beauty'), readFilmState(state, 'beauty'))).toBeLessThanOrEqual(4);
     tracer.destroy();

@@ -118,7 +118,11 @@ class LightHost {
   async ask(queries: readonly Query[]): Promise<Float32Array> {
     const { memory, scene, options, geometry } = this;
     const features = kernelFeatures(scene.features(), camera, options);
-    const flags: Record<string, boolean> = { ...features.flags, BVH_FILTER: false, PLANES: features.planes > 1 };
+    const flags: Record<string, boolean> = {
+      ...features.flags,
+      BVH_FILTER: false,
+      PASSES: features.lightPasses > 1,
+    };
     const extra: SceneBinding[] = [
       ...Array.from({ length: features.textureCount }, (_, i) => [`scene_texture_${i}`, 'texture_2d_array'] as const),
       ...Array.from({ length: features.samplerCount }, (_, i) => [`scene_sampler_${i}`, 'sampler'] as const),

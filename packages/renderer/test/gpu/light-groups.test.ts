@@ -59,7 +59,7 @@ async function render(
 }
 
 const largest = (a: Float32Array, b: Float32Array) =>
-  a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] as number))), 0);
+  a.reduce((max, value, i) => Math.max(max, Math.abs(value - (b[i] as number))), 0);
 
 describe('light groups', () => {
   it('all groups add up to the beauty, which is the one without groups', async () => {

@@ -188,7 +188,7 @@ it('after hundreds of edits the image and what a click finds are those of a new 
     const fresh = await PathTracer.create(device, tracer.scene, options);
     const expected = await image(fresh);
     const largest = (a: Float32Array, b: Float32Array) =>
-      a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i]!)), 0);
+      a.reduce((max, value, i) => Math.max(max, Math.abs(value - b[i]!)), 0);
     expect(largest(after, before)).toBeGreaterThan(1e-2);
     expect(largest(after, expected)).toBeLessThan(1e-5);
     for (let k = 0; k < 40; k++) {

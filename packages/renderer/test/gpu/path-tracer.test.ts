@@ -317,18 +317,18 @@ describe('the session', () => {
   };
 
   it('gives the same image bit for bit whatever the batches, also when interrupted', async () => {
-    const wanted = { width: 8, height: 8, samples: 70, seed: 5 };
-    const reference = (await render(cornell(), wanted)).pixels;
-    const small = (await render(cornell(), { ...wanted, pathsInFlight: 25, maxSubmitMs: 1 })).pixels;
+    const settings = { width: 8, height: 8, samples: 70, seed: 5 };
+    const reference = (await render(cornell(), settings)).pixels;
+    const small = (await render(cornell(), { ...settings, pathsInFlight: 25, maxSubmitMs: 1 })).pixels;
     expect(same(small, reference)).toBe(true);
-    const { tracer } = await render(cornell(), { ...wanted, samples: 3, pathsInFlight: 75 });
+    const { tracer } = await render(cornell(), { ...settings, samples: 3, pathsInFlight: 75 });
     const controller = new AbortController();
     for await (const { samples } of tracer.render({ samples: 70, signal: controller.signal }))
       if (samples > 20) controller.abort();
     expect(tracer.samples).toBeLessThan(70);
     for await (const _ of tracer.render({ samples: 70 }));
     expect(same(await tracer.read('beauty'), reference)).toBe(true);
-    const other = (await render(cornell(), { ...wanted, seed: 6 })).pixels;
+    const other = (await render(cornell(), { ...settings, seed: 6 })).pixels;
     expect(same(other, reference)).toBe(false);
   });
 

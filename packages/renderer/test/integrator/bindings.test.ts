@@ -14,13 +14,13 @@ import { random } from '../tree-lights';
 const STORAGE_BUFFERS = 8;
 const UNIFORM_BUFFERS = 12;
 
-const features = (flags: Record<string, boolean>, planes = 1): KernelFeatures => ({
+const features = (flags: Record<string, boolean>, lightPasses = 1): KernelFeatures => ({
   flags,
   samplings: [],
   textured: [],
   textureCount: 0,
   samplerCount: 0,
-  planes,
+  lightPasses,
 });
 
 /** Flags that decide what kernels bind: all that the files name which choose resources. */
@@ -71,16 +71,16 @@ it('no kernel binds more buffers than every browser offers, whatever flags are s
   expect(names).toEqual(expect.arrayContaining(['OPACITY', 'AREA_LIGHTS', 'MEDIA', 'NULL_SURFACES', 'AOVS']));
   const counts = KERNELS.map((kernel) => {
     const switches = decisive(kernel);
-    let most = 0;
+    let max = 0;
     for (let bits = 0; bits < 2 ** switches.length; bits++) {
       const flags = Object.fromEntries(switches.map((name, i) => [name, ((bits >> i) & 1) === 1]));
       const groups = bindingsOf(kernel, features(flags));
       const count = countOf(groups, 'read', 'read_write');
-      most = Math.max(most, count);
+      max = Math.max(max, count);
       if (count > STORAGE_BUFFERS || countOf(groups, 'uniform') > UNIFORM_BUFFERS)
         expect.fail(`${kernel} binds ${count} storage buffers with ${JSON.stringify(flags)}`);
     }
-    return most;
+    return max;
   });
   // The limit is reached: where one more is needed, another must go.
   expect(Math.max(...counts)).toBe(STORAGE_BUFFERS);

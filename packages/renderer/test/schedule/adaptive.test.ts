@@ -39,12 +39,12 @@ describe('noisyTiles', () => {
 
 describe('samplesLeft', () => {
   it('a tile twice as noisy as wanted needs four times the samples, rounded up to the next look', () => {
-    const left = (error: number, most = 1e6) =>
+    const left = (error: number, max = 1e6) =>
       samplesLeft(
         [0],
         Float64Array.of(error),
         0.01,
-        most,
+        max,
         () => 64,
         () => 10,
       );

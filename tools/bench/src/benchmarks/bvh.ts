@@ -14,7 +14,7 @@ import { plainBlas, plainThree, traversalCost, type PlainTree } from '../bvh/tra
 
 const geometricMean = (values: readonly number[]) =>
   Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
-const least = (values: readonly number[]) => Math.min(...values);
+const min = (values: readonly number[]) => Math.min(...values);
 
 /** Meshes of parts, as CAD programs write them. */
 const CAD_LIKE = /push-button|CAD/;
@@ -93,7 +93,7 @@ export const benchmark: Benchmark = {
           if (i >= 0) times.get(name)!.push(time!);
         }
       }
-      const time = (name: string) => least(times.get(name)!);
+      const time = (name: string) => min(times.get(name)!);
       const costs = new Map(trees.map(({ name, sah }) => [name, sah()]));
       figure(`${mesh.name}: triangles`, '1', [mesh.indices.length / 3]);
       for (const { name } of trees) {
@@ -174,7 +174,7 @@ export const benchmark: Benchmark = {
         relation: '>=',
         source: 'four times as fast',
       });
-      figure('all: three-mesh-bvh SAH over balanced, least', '1', [least(ratios.sah)], {
+      figure('all: three-mesh-bvh SAH over balanced, least', '1', [min(ratios.sah)], {
         value: 3,
         relation: '>=',
         source: 'three times as fast on any mesh',
@@ -220,7 +220,7 @@ export const benchmark: Benchmark = {
     const [one, two] = await workerTimes(four, runs);
     figure(`four times ${large.name}: one worker`, 'ms', one);
     figure(`four times ${large.name}: two workers`, 'ms', two);
-    figure(`four times ${large.name}: one worker over two, minima`, '1', [least(one) / least(two)], {
+    figure(`four times ${large.name}: one worker over two, minima`, '1', [min(one) / min(two)], {
       value: 1.6,
       relation: '>=',
       source: 'two workers',
@@ -229,7 +229,7 @@ export const benchmark: Benchmark = {
     const [oneOfParts, twoOfParts] = await workerTimes(parts.meshes, 3 * runs);
     figure(`${parts.name}: one worker`, 'ms', oneOfParts);
     figure(`${parts.name}: two workers`, 'ms', twoOfParts);
-    figure(`${parts.name}: one worker over two, minima`, '1', [least(oneOfParts) / least(twoOfParts)], {
+    figure(`${parts.name}: one worker over two, minima`, '1', [min(oneOfParts) / min(twoOfParts)], {
       value: 1.6,
       relation: '>=',
       source: 'two workers',
@@ -237,7 +237,7 @@ export const benchmark: Benchmark = {
     const [alone, together] = await workerTimes([large], 3 * runs);
     figure(`${large.name}: on one worker`, 'ms', alone);
     figure(`${large.name}: on two workers together`, 'ms', together);
-    figure(`${large.name}: one worker over two together, minima`, '1', [least(alone) / least(together)], {
+    figure(`${large.name}: one worker over two together, minima`, '1', [min(alone) / min(together)], {
       value: 1.6,
       relation: '>=',
       source: 'two workers',

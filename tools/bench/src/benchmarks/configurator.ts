@@ -11,9 +11,9 @@ type Change = (tracer: PathTracer, turn: number) => Promise<void>;
 /** Shows one of several groups of parts and hides the one before it. */
 async function show(tracer: PathTracer, groups: readonly (readonly string[])[], turn: number): Promise<void> {
   const visible = new Set(tracer.scene.instances.flatMap(({ name, visible: is }) => (is === false ? [] : [name])));
-  const wanted = groups[turn % groups.length] ?? [];
-  const appear = wanted.filter((name) => !visible.has(name));
-  const vanish = groups.flat().filter((name) => visible.has(name) && !wanted.includes(name));
+  const requested = groups[turn % groups.length] ?? [];
+  const appear = requested.filter((name) => !visible.has(name));
+  const vanish = groups.flat().filter((name) => visible.has(name) && !requested.includes(name));
   if (appear.length > 0) await tracer.setVisibility(appear, true);
   if (vanish.length > 0) await tracer.setVisibility(vanish, false);
 }
@@ -45,8 +45,8 @@ const CHANGES: Readonly<Record<string, Change>> = {
 export const benchmark: Benchmark = {
   description:
     'the push-button configurator: milliseconds from a change to the first image that shows it, by kind of change',
-  async run({ log, quick, gpu: wanted }) {
-    const { gpu, adapterName, software } = await createGpu(wanted ? { gpu: wanted } : {});
+  async run({ log, quick, gpu: requested }) {
+    const { gpu, adapterName, software } = await createGpu(requested ? { gpu: requested } : {});
     const [width, height] = quick ? [160, 100] : [1280, 800];
     const level = quick ? 'low' : 'medium';
     const runs = quick ? 3 : 24;

@@ -79,7 +79,7 @@ export const benchmark: Benchmark = {
     const { gpu, adapterName, software } = await createGpu(name ? { gpu: name } : {});
     const device = await requestDevice({ gpu });
     const [width, height] = quick ? [96, 54] : [1920, 1080];
-    const most = quick ? 4 : 1024;
+    const maximum = quick ? 4 : 1024;
     const seconds = quick ? 1 : Number(values['reference-seconds'] ?? 10);
     const packed = packedFolder(PRODUCT_DATA);
     const weights = values['weights'] ?? (packed ? join(packed, 'weights') : WEIGHTS);
@@ -111,7 +111,7 @@ export const benchmark: Benchmark = {
         const reference = file('reference', 0);
         const long = await create({ seed: 5001 });
         const until = performance.now() + 1000 * seconds;
-        while (performance.now() < until || long.samples < 2 * most) await addSamples(long, long.samples + 64);
+        while (performance.now() < until || long.samples < 2 * maximum) await addSamples(long, long.samples + 64);
         const referenceSamples = long.samples;
         writeImage(reference, await long.read('beauty'));
         long.destroy();
@@ -126,7 +126,7 @@ export const benchmark: Benchmark = {
           if (guided) for (const [, denoiser] of denoisers) await denoiser.denoiseTracer(tracer);
           tracer.reset();
           let rendering = 0;
-          for (let samples = 1; samples <= most; samples *= 2) {
+          for (let samples = 1; samples <= maximum; samples *= 2) {
             rendering += await elapsed(device, () => addSamples(tracer, samples));
             const shot = (way: Way, milliseconds: number, image: Float32Array) => {
               const target = file(way, samples);

@@ -56,11 +56,11 @@ function numberOption(
 
 function listOption<T extends string>(text: string | undefined, all: readonly T[], what: string): readonly T[] {
   if (text === undefined) return all;
-  const wanted = text.split(',');
-  const unknown = wanted.find((name) => !(all as readonly string[]).includes(name));
+  const requested = text.split(',');
+  const unknown = requested.find((name) => !(all as readonly string[]).includes(name));
   if (unknown !== undefined)
     throw new BenchError('bench/option', `There is no ${what} "${unknown}"; there are: ${all.join(', ')}.`);
-  return all.filter((name) => wanted.includes(name));
+  return all.filter((name) => requested.includes(name));
 }
 
 /** Runs a job in a process of its own, since renderers must not share one. */
@@ -90,8 +90,8 @@ async function runJob(job: Job): Promise<never> {
   process.exit(0);
 }
 
-const catalogueOnly = (quantity: Quantity) => (scene: SceneInfo) =>
-  scene.truth === 'catalogue' ? quantity : undefined;
+const referencesOnly = (quantity: Quantity) => (scene: SceneInfo) =>
+  scene.truth === 'references' ? quantity : undefined;
 
 function figuresOf(details: EqualTimeDetails, judge: boolean): Figure[] {
   const figures: Figure[] = [];
@@ -113,25 +113,25 @@ function figuresOf(details: EqualTimeDetails, judge: boolean): Figure[] {
           name: `${peer}: ${name}`,
           unit: '× lower',
           runs: result.count,
-          min: result.least,
+          min: result.min,
           median: result.mean,
-          max: result.most,
+          max: result.max,
           ...target,
         });
     };
     const unbiased = peer === 'three-gpu-pathtracer';
-    whole('relMSE at equal GPU time, geometric mean', catalogueOnly('relMSE'), 'gpuMs', unbiased);
-    whole('relMSE at equal wall time, geometric mean', catalogueOnly('relMSE'), 'wallMs', false);
+    whole('relMSE at equal GPU time, geometric mean', referencesOnly('relMSE'), 'gpuMs', unbiased);
+    whole('relMSE at equal wall time, geometric mean', referencesOnly('relMSE'), 'wallMs', false);
     whole('noise at equal GPU time, geometric mean', () => 'noise', 'gpuMs', unbiased);
-    whole('FLIP at equal GPU time, geometric mean', catalogueOnly('FLIP'), 'gpuMs', false);
+    whole('FLIP at equal GPU time, geometric mean', referencesOnly('FLIP'), 'gpuMs', false);
     for (const scene of details.scenes) {
-      const found = ratios(details, scene.name, peer, scene.truth === 'catalogue' ? 'relMSE' : 'noise')?.filter(
+      const found = ratios(details, scene.name, peer, scene.truth === 'references' ? 'relMSE' : 'noise')?.filter(
         Number.isFinite,
       );
       if (found && found.length > 0)
         figures.push(
           timed(
-            `${peer}: ${scene.name}, ${scene.truth === 'catalogue' ? 'relMSE' : 'noise'} over the budgets`,
+            `${peer}: ${scene.name}, ${scene.truth === 'references' ? 'relMSE' : 'noise'} over the budgets`,
             '× lower',
             found,
           ),

@@ -45,9 +45,9 @@ export const benchmark: Benchmark = {
     const size = wholeNumber('size', values['size'], software ? 48 : 512);
     const samples = wholeNumber('samples', values['samples'], quick ? 4 : 64);
     const deadline = 1000 * wholeNumber('deadline', values['deadline'], 600);
-    const wanted = values['models']?.split(',');
+    const requested = values['models']?.split(',');
     const assets = (JSON.parse(readFileSync(index, 'utf8')) as readonly Asset[]).filter(
-      ({ name, main }) => /\.(glb|gltf|obj|stl)$/i.test(main) && (wanted?.includes(name) ?? true),
+      ({ name, main }) => /\.(glb|gltf|obj|stl)$/i.test(main) && (requested?.includes(name) ?? true),
     );
     const environment = studioEnvironment();
     const notes: string[] = [];

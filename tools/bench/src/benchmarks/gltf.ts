@@ -16,7 +16,7 @@ import {
 } from '../loading/report';
 import { machine } from '../machine';
 
-/** The version of three.js in the workspace's catalogue. */
+/** The version of three.js in the workspace's catalog. */
 const THREE = '0.185.0';
 
 function spread(values: readonly number[]): Spread {

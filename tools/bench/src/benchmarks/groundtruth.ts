@@ -4,7 +4,7 @@ import { requestDevice } from '@glanz/renderer';
 import {
   GROUND_TRUTH_CASES,
   GroundTruth,
-  catalogueFolder,
+  referenceFolder,
   compareImages,
   convergenceSlope,
   failures,
@@ -12,7 +12,7 @@ import {
   renderGroundTruth,
 } from '@glanz/reference';
 import { estimated, type Benchmark, type Figure } from '../benchmark';
-import { decodePixels, packedFolder, usePackedCatalogue } from '../equal-time/load';
+import { decodePixels, packedFolder, usePackedReferences } from '../equal-time/load';
 import { BenchError } from '../error';
 
 /** Targets for relMSE × samples, of a renderer with Sobol sampling and MIS compensation. */
@@ -36,28 +36,27 @@ export const benchmark: Benchmark = {
     },
   },
   async run({ log, quick, gpu, values }) {
-    usePackedCatalogue();
-    if (!catalogueFolder())
+    usePackedReferences();
+    if (!referenceFolder())
       throw new BenchError(
         'bench/missing-data',
-        'groundtruth needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".',
+        'groundtruth needs the reference set: set GLANZ_GROUNDTRUTH to its folder "scenes".',
       );
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api });
     // Independent seeds give the interval; their mean is the image that is checked.
     const runs = quick ? 2 : 4;
     const samples = wholeNumber('samples', values['samples']) ?? (quick ? 4 : software ? 32 : 256);
-    const wanted = values['scenes']?.split(',');
-    const unknown = wanted?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
+    const requested = values['scenes']?.split(',');
+    const unknown = requested?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
     if (unknown !== undefined)
       throw new BenchError(
         'bench/option',
         `--scenes: there is no scene "${unknown}"; there are: ${[...new Set(GROUND_TRUTH_CASES.map(({ scene }) => scene))].join(', ')}.`,
       );
-    const most = wholeNumber('slopes', values['slopes']);
-    if (most !== undefined && most < 16)
-      throw new BenchError('bench/option', `--slopes ${most}: it must be at least 16.`);
-    const cases = GROUND_TRUTH_CASES.filter(({ scene }) => wanted?.includes(scene) ?? true);
+    const max = wholeNumber('slopes', values['slopes']);
+    if (max !== undefined && max < 16) throw new BenchError('bench/option', `--slopes ${max}: it must be at least 16.`);
+    const cases = GROUND_TRUTH_CASES.filter(({ scene }) => requested?.includes(scene) ?? true);
     const figures: Figure[] = [];
     const notes: string[] = [];
     let agreeing = 0;
@@ -101,15 +100,15 @@ export const benchmark: Benchmark = {
         mean: truth.image(variant).stats.relmse_1spp / mean,
         ci95: 0,
       });
-      if (most !== undefined && variant === 'full') {
-        // Below the error that the catalogue allows the reference itself, a slope would be the reference's.
+      if (max !== undefined && variant === 'full') {
+        // Below the error that the reference set allows the reference itself, a slope would be the reference's.
         const last = Math.max(
           16,
-          Math.min(most, Math.floor(truth.image(variant).stats.relmse_1spp / truth.tolerance.floor)),
+          Math.min(max, Math.floor(truth.image(variant).stats.relmse_1spp / truth.tolerance.floor)),
         );
         // Four steps, from a sixteenth of the samples or so.
         const counts = [last / 16, last / 8, last / 4, last / 2, last].map(Math.round);
-        if (last < most)
+        if (last < max)
           notes.push(`${name}: slope up to ${last} samples, where its error is as low as the reference's may be`);
         const slope = convergenceSlope(await measureConvergence(device, truth, counts, runs));
         figures.push({

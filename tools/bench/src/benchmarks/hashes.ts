@@ -139,9 +139,9 @@ export const benchmark: Benchmark = {
       notes.push(
         `Of the sample assets, films of ${FILM_ASSETS.size} were rendered and programs of all composed; --assets all renders all.`,
       );
-    const wanted = values['only'] ?? '';
-    const cases = [...HASH_CASES, ...(assets ?? [])].filter(({ name }) => name.includes(wanted));
-    if (cases.length === 0) throw new BenchError('bench/option', `--only ${wanted}: no scene has this in its name.`);
+    const requested = values['only'] ?? '';
+    const cases = [...HASH_CASES, ...(assets ?? [])].filter(({ name }) => name.includes(requested));
+    if (cases.length === 0) throw new BenchError('bench/option', `--only ${requested}: no scene has this in its name.`);
     const render = values['films'] !== 'no';
     const { gpu, adapterName, software } = await createGpu(
       gpuName === undefined ? { software: 'only' } : { gpu: gpuName },
@@ -188,7 +188,7 @@ export const benchmark: Benchmark = {
       { name: 'films', unit: '1', runs: 1, median: films.length },
       { name: 'programs', unit: '1', runs: 1, median: details.programs.length },
     ];
-    if (wanted === '') {
+    if (requested === '') {
       figures.push({
         name: 'flags that no scene uses',
         unit: '1',
@@ -203,7 +203,7 @@ export const benchmark: Benchmark = {
       if (neverOff.length > 0) notes.push(`In all scenes on: ${neverOff.join(', ')}.`);
     }
     if (before) {
-      const partial = wanted !== '' || (assets ?? []).length === 0;
+      const partial = requested !== '' || (assets ?? []).length === 0;
       const changed = [
         ...table('film', render ? differences(before.films, films, partial || which !== 'all') : []),
         ...table('program', differences(before.programs, details.programs, partial || !render)),
@@ -225,7 +225,7 @@ export const benchmark: Benchmark = {
         samples: SAMPLES,
         assetSamples: ASSET_SAMPLES,
         seed: 1,
-        only: wanted,
+        only: requested,
         films: render,
       },
       gpu: { name: adapterName, software },

@@ -147,8 +147,8 @@ export const benchmark: Benchmark = {
   options: {
     counts: { type: 'string', help: 'numbers of instances, separated by commas; 1000,10000,100000 by default' },
   },
-  async run({ log, quick, gpu: wanted, seed = 1, values }) {
-    const { gpu, adapterName, software } = await createGpu(wanted ? { gpu: wanted } : {});
+  async run({ log, quick, gpu: requested, seed = 1, values }) {
+    const { gpu, adapterName, software } = await createGpu(requested ? { gpu: requested } : {});
     const counts = values['counts']?.split(',').map(Number) ?? (quick ? COUNTS.slice(0, 2) : COUNTS);
     const runs = quick ? 3 : 25;
     const device = await requestDevice({ gpu });

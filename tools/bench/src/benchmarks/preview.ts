@@ -129,8 +129,8 @@ const quantile = (values: readonly number[], q: number) =>
 export const benchmark: Benchmark = {
   description:
     'the preview of the viewer while orbiting: frames, resolution, and latency, on a screen of 60 frames a second',
-  async run({ log, quick, gpu: wanted }) {
-    const { gpu, adapterName, software } = await createGpu(wanted ? { gpu: wanted } : {});
+  async run({ log, quick, gpu: requested }) {
+    const { gpu, adapterName, software } = await createGpu(requested ? { gpu: requested } : {});
     const figures: Figure[] = [];
     for (const [width, height] of quick ? SIZES.slice(0, 1) : SIZES) {
       const { canvas, close } = makeScreen(gpu, width, height);

@@ -19,7 +19,7 @@ export class Oracle {
    */
   constructor(corners: Float64Array, blur = 0) {
     this.#corners = corners;
-    const size = corners.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+    const size = corners.reduce((max, x) => Math.max(max, Math.abs(x)), 0);
     this.#reach = 1e-9 * size;
     this.#blur = blur * size;
   }

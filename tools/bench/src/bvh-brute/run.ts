@@ -252,7 +252,7 @@ async function checkGpu(
   const hits = await gpu.trace(tlas, parts, rays);
   const where = new Map<number, number>();
   for (let i = 0; i < names.length; i += 2) where.set(names[i]! * 2 ** 24 + names[i + 1]!, (9 * i) / 2);
-  const size = corners.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+  const size = corners.reduce((max, x) => Math.max(max, Math.abs(x)), 0);
   picked.forEach((ray, i) => {
     const o = rays.subarray(8 * i, 8 * i + 3),
       d = rays.subarray(8 * i + 4, 8 * i + 7),

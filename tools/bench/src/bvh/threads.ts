@@ -85,11 +85,11 @@ export async function slicedTimes(
     longest: number[] = [];
   for (let i = -1; i < runs; i++) {
     let last = performance.now(),
-      most = 0,
+      max = 0,
       done = false;
     const tick = () => {
       const now = performance.now();
-      most = Math.max(most, now - last);
+      max = Math.max(max, now - last);
       last = now;
       if (!done) setImmediate(tick);
     };
@@ -98,10 +98,10 @@ export async function slicedTimes(
     await buildBlasAsync(mesh);
     const end = performance.now();
     done = true;
-    most = Math.max(most, end - last);
+    max = Math.max(max, end - last);
     if (i < 0) continue;
     all.push(end - start);
-    longest.push(most);
+    longest.push(max);
   }
   return { all, longest };
 }

@@ -64,7 +64,7 @@ export const channelsOf = ({ data, channels }: NpyImage, from: number, count: nu
     (_, i) => data[Math.floor(i / count) * channels + from + (i % count)]!,
   );
 
-/** Mean over pixels of the squared error over the squared reference, as the ground-truth catalogue counts it. RGB. */
+/** Mean over pixels of the squared error over the squared reference, as the reference set counts it. RGB. */
 export function relativeError(test: Float32Array, reference: Float32Array): number {
   const pixels = reference.length / 3;
   const power = reference.reduce((sum, value) => sum + value * value, 0) / reference.length;

@@ -72,11 +72,11 @@ export class GpuTime {
     for (let units = 1; ;) {
       const { gpuMs, submissions } = await this.measure(() => contestant.advance(units));
       const perUnit = submissions / units;
-      const most = Math.max(units, Math.floor(SUBMISSIONS / Math.max(perUnit, 1e-9)));
-      if (gpuMs >= CALIBRATION_MS || units >= Math.min(most, 100_000))
+      const max = Math.max(units, Math.floor(SUBMISSIONS / Math.max(perUnit, 1e-9)));
+      if (gpuMs >= CALIBRATION_MS || units >= Math.min(max, 100_000))
         return { gpuMs: gpuMs / units, submissions: perUnit };
       units = Math.min(
-        most,
+        max,
         Math.max(2 * units, Math.min(8 * units, Math.ceil((1.2 * CALIBRATION_MS * units) / Math.max(gpuMs, 0.01)))),
       );
     }

@@ -28,8 +28,8 @@ export function packedFolder(name = DATA_FOLDER): string | undefined {
   return existsSync(folder) ? folder : undefined;
 }
 
-/** Makes the packed ground-truth catalogue the one that is read, where there is one and no other was asked for. */
-export function usePackedCatalogue(): void {
+/** Makes the packed reference set the one that is read, where there is one and no other was asked for. */
+export function usePackedReferences(): void {
   const folder = packedFolder();
   if (folder) process.env['GLANZ_GROUNDTRUTH'] ??= join(folder, 'groundtruth');
 }

@@ -19,7 +19,7 @@ export interface MeasurementPlan {
   readonly runs: number;
   /** Part of the adapter's name. */
   readonly gpu?: string;
-  /** Where the scene's own reference lies, for scenes that the catalogue has none of. */
+  /** Where the scene's own reference lies, for scenes that the reference set has none of. */
   readonly referenceFile?: string;
 }
 

@@ -1,11 +1,11 @@
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
-import { catalogueFolder, GROUND_TRUTH_CASES } from '@glanz/reference';
+import { referenceFolder, GROUND_TRUTH_CASES } from '@glanz/reference';
 import { assetFile, decodePixels, glbImages, packPixels, pixelsName } from './load';
 import { HELMET_FILES } from './scenes';
 
-/** Files of a catalogue scene that a measurement reads: of the references, not those of other microfacet models. */
-const WANTED = /^(scene\.(json|glb)|env\.hdr|ref(\.(?!sep\b)\w+)*\.(exr|f32|stats\.json))$/;
+/** Files of a scene of the reference set that a measurement reads: of the references, not those of other microfacet models. */
+const PACKED = /^(scene\.(json|glb)|env\.hdr|ref(\.(?!sep\b)\w+)*\.(exr|f32|stats\.json))$/;
 
 function copy(from: string, to: string): void {
   mkdirSync(dirname(to), { recursive: true });
@@ -19,17 +19,17 @@ function copy(from: string, to: string): void {
 export async function packData(folder: string): Promise<string[]> {
   const missing: string[] = [];
   const models: string[] = [];
-  const catalogue = catalogueFolder();
+  const references = referenceFolder();
   for (const name of new Set(GROUND_TRUTH_CASES.map(({ scene }) => scene))) {
-    if (!catalogue || !existsSync(join(catalogue, name))) {
+    if (!references || !existsSync(join(references, name))) {
       missing.push(name);
       continue;
     }
-    for (const file of readdirSync(join(catalogue, name)).filter((entry) => WANTED.test(entry)))
-      copy(join(catalogue, name, file), join(folder, 'groundtruth', name, file));
-    models.push(join(catalogue, name, 'scene.glb'));
+    for (const file of readdirSync(join(references, name)).filter((entry) => PACKED.test(entry)))
+      copy(join(references, name, file), join(folder, 'groundtruth', name, file));
+    models.push(join(references, name, 'scene.glb'));
   }
-  if (catalogue) copy(join(catalogue, 'tolerances.json'), join(folder, 'groundtruth', 'tolerances.json'));
+  if (references) copy(join(references, 'tolerances.json'), join(folder, 'groundtruth', 'tolerances.json'));
   for (const path of Object.values(HELMET_FILES)) {
     const file = assetFile(path);
     if (!file) missing.push(path);

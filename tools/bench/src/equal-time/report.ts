@@ -81,7 +81,8 @@ function comparisonTable(
   return body.length === 0 ? ['Not measured.'] : table(['scene', ...details.budgetsMs.map(seconds)], body);
 }
 
-const catalogue = (quantity: Quantity) => (scene: SceneInfo) => (scene.truth === 'catalogue' ? quantity : undefined);
+const ofReferences = (quantity: Quantity) => (scene: SceneInfo) =>
+  scene.truth === 'references' ? quantity : undefined;
 const always = (quantity: Quantity) => () => quantity;
 
 function overallLine(
@@ -94,7 +95,7 @@ function overallLine(
   const result = overall(details, peer, quantity, clock);
   return result
     ? [
-        `- ${text}: **${times(result.mean)}** (${times(result.least)} to ${times(result.most)}, ${result.count} comparisons)`,
+        `- ${text}: **${times(result.mean)}** (${times(result.min)} to ${times(result.max)}, ${result.count} comparisons)`,
       ]
     : [];
 }
@@ -129,22 +130,17 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     '',
     'How many times lower the error of Glanz is at equal GPU time, geometric mean over scenes and times:',
     '',
-    ...overallLine(
-      details,
-      PEER,
-      'relMSE against the catalogue’s references, their biased options off',
-      catalogue('relMSE'),
-    ),
-    ...overallLine(details, PEER, 'the same at equal wall time', catalogue('relMSE'), 'wallMs'),
+    ...overallLine(details, PEER, 'relMSE against the reference set, their biased options off', ofReferences('relMSE')),
+    ...overallLine(details, PEER, 'the same at equal wall time', ofReferences('relMSE'), 'wallMs'),
     ...overallLine(details, PEER, 'noise alone, all scenes', always('noise')),
-    ...overallLine(details, PEER, 'FLIP against the catalogue’s references', catalogue('FLIP')),
+    ...overallLine(details, PEER, 'FLIP against the reference set', ofReferences('FLIP')),
     ...overallLine(
       details,
       PEER_DEFAULTS,
-      'relMSE against the catalogue’s references, the peer as its users get it',
-      catalogue('relMSE'),
+      'relMSE against the reference set, the peer as its users get it',
+      ofReferences('relMSE'),
     ),
-    ...overallLine(details, PEER_DEFAULTS, 'FLIP, the peer as its users get it', catalogue('FLIP')),
+    ...overallLine(details, PEER_DEFAULTS, 'FLIP, the peer as its users get it', ofReferences('FLIP')),
     '',
     '## Error by GPU time, biased options off',
     '',
@@ -158,15 +154,15 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     '',
     '## FLIP',
     '',
-    ...comparisonTable(details, PEER, catalogue('FLIP')),
+    ...comparisonTable(details, PEER, ofReferences('FLIP')),
     '',
     '## The peer as its users get it',
     '',
     'With the clamp and the blurred gloss that it has on by default: less noise, and an image that does not converge to the truth. relMSE, then FLIP.',
     '',
-    ...comparisonTable(details, PEER_DEFAULTS, catalogue('relMSE')),
+    ...comparisonTable(details, PEER_DEFAULTS, ofReferences('relMSE')),
     '',
-    ...comparisonTable(details, PEER_DEFAULTS, catalogue('FLIP')),
+    ...comparisonTable(details, PEER_DEFAULTS, ofReferences('FLIP')),
     '',
     `## After ${seconds(budgetsMs[budgetsMs.length - 1] ?? 0)}`,
     '',
@@ -218,7 +214,7 @@ const PAGE_HEAD = `# Error at equal time
 
 How wrong is an image after a second? Glanz beside [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the path tracer for three.js: its WebGPU wavefront tracer, on three r185. Both get the same .glb file, camera, size, depth and environment, each in a process of its own, one after another on one GPU, with warm pipelines.
 
-- **References.** Small scenes of a catalogue whose images were made by another renderer, with their standard errors; images are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
+- **References.** Small scenes of a reference set whose images were made by another renderer, with their standard errors; images are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
 - **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences in what a material means do not count.
 - **FLIP.** What an eye notices when it flips between image and reference, after Andersson et al. 2020, on tone-mapped images.
 - **GPU time.** By timestamps around every submission; the clock's own cost is subtracted, in favour of who submits often. The peer is measured in its best batching, all pixels' paths in flight, and without its preview.
@@ -247,7 +243,7 @@ export function writePages(report: EqualTimeReport, folder: string): string[] {
   draw('equal-time-relmse.svg', 'Error', 'relMSE', (scene) =>
     fairQuantity(scene) === 'noise' && details.runs < 2 ? undefined : fairQuantity(scene),
   );
-  draw('equal-time-flip.svg', 'FLIP', 'mean FLIP', catalogue('FLIP'));
+  draw('equal-time-flip.svg', 'FLIP', 'mean FLIP', ofReferences('FLIP'));
   files.push(
     ['equal-time.md', `${PAGE_HEAD}${images.join('\n')}\n${equalTimeMarkdown(report)}${PAGE_FOOT}`],
     ['equal-time.json', `${JSON.stringify(report, null, 1)}\n`],

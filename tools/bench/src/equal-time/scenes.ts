@@ -3,11 +3,11 @@ import { join } from 'node:path';
 import { decodeHdr } from '@glanz/image';
 import { createPushButton } from '@glanz/models';
 import { sceneToGlb } from '@glanz/models/gltf';
-import { GROUND_TRUTH_CASES, GroundTruth, catalogueFolder } from '@glanz/reference';
+import { GROUND_TRUTH_CASES, GroundTruth, referenceFolder } from '@glanz/reference';
 import { frameCamera, type Environment, type PerspectiveCamera } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 import { BenchError } from '../error';
-import { assetFile, decodePixels, loadGltfBytes, usePackedCatalogue } from './load';
+import { assetFile, decodePixels, loadGltfBytes, usePackedReferences } from './load';
 import type { Task } from './contestant';
 import type { Reference } from './images';
 
@@ -15,28 +15,28 @@ import type { Reference } from './images';
 export interface EqualTimeScene {
   readonly name: string;
   readonly title: string;
-  /** `catalogue`: another renderer's, known to be right. `own`: a long render of Glanz, checked against itself. */
-  readonly truth: 'catalogue' | 'own';
+  /** `references`: another renderer's, known to be right. `own`: a long render of Glanz, checked against itself. */
+  readonly truth: 'references' | 'own';
   load(size: number): Promise<{ readonly task: Task; readonly reference?: Reference }>;
 }
 
 type FileBytes = Uint8Array<ArrayBuffer>;
 const bytesOf = (file: string): FileBytes => new Uint8Array(readFileSync(file));
 
-/** The catalogue's reference images are this wide and high. */
+/** The images of the reference set are this wide and high. */
 export const CATALOGUE_SIZE = 128;
 
 function groundTruth(name: string, title: string): EqualTimeScene {
   return {
     name,
     title,
-    truth: 'catalogue',
+    truth: 'references',
     async load(size) {
-      usePackedCatalogue();
-      if (!catalogueFolder())
+      usePackedReferences();
+      if (!referenceFolder())
         throw new BenchError(
           'bench/missing-data',
-          `${name} needs the ground-truth catalogue: set GLANZ_GROUNDTRUTH to its folder "scenes".`,
+          `${name} needs the reference set: set GLANZ_GROUNDTRUTH to its folder "scenes".`,
         );
       const truth = new GroundTruth(name);
       const scene = await truth.scene({ decodeImage: (bytes) => decodePixels(bytes) });
@@ -50,7 +50,7 @@ function groundTruth(name: string, title: string): EqualTimeScene {
           width: size,
           height: size,
           maxDepth: truth.maxDepth(),
-          // The catalogue's metals are single scattering.
+          // The reference set's metals are single scattering.
           multipleScattering: false,
         },
         reference: { width, height, mean, standardError },

@@ -7,7 +7,7 @@ import type { CrossCheck } from './reference';
 export interface SceneInfo {
   readonly name: string;
   readonly title: string;
-  readonly truth: 'catalogue' | 'own';
+  readonly truth: 'references' | 'own';
 }
 
 /** All that a run of the benchmark found. */
@@ -112,7 +112,7 @@ export function valueAfter(
 }
 
 /** The quantity by which a scene's contestants are compared: models differ where our own render is the reference. */
-export const fairQuantity = ({ truth }: SceneInfo): Quantity => (truth === 'catalogue' ? 'relMSE' : 'noise');
+export const fairQuantity = ({ truth }: SceneInfo): Quantity => (truth === 'references' ? 'relMSE' : 'noise');
 
 /**
  * How many times lower Glanz's error is than the peer's at each budget, at equal GPU or wall time; `undefined` where
@@ -140,7 +140,7 @@ export function overall(
   peer: ContestantName,
   quantity: (scene: SceneInfo) => Quantity | undefined,
   clock: 'gpuMs' | 'wallMs' = 'gpuMs',
-): { readonly mean: number; readonly least: number; readonly most: number; readonly count: number } | undefined {
+): { readonly mean: number; readonly min: number; readonly max: number; readonly count: number } | undefined {
   const all = details.scenes.flatMap((scene) => {
     const what = quantity(scene);
     return what === undefined ? [] : (ratios(details, scene.name, peer, what, clock) ?? []);
@@ -148,5 +148,5 @@ export function overall(
   const finite = all.filter((ratio) => Number.isFinite(ratio) && ratio > 0);
   return finite.length === 0
     ? undefined
-    : { mean: geometricMean(finite), least: Math.min(...finite), most: Math.max(...finite), count: finite.length };
+    : { mean: geometricMean(finite), min: Math.min(...finite), max: Math.max(...finite), count: finite.length };
 }

@@ -170,9 +170,9 @@ export async function cliCampaign({
   };
   try {
     const trials: { readonly job: keyof typeof JOBS; readonly point: FaultPoint; readonly fault: Fault }[] = [];
-    const wanted: Partial<Record<keyof typeof JOBS, Run>> = {};
+    const expected: Partial<Record<keyof typeof JOBS, Run>> = {};
     for (const job of ['single', 'batch'] as const) {
-      const run = (wanted[job] = await start(job));
+      const run = (expected[job] = await start(job));
       if (run.code !== 0 || !run.recorded)
         throw new Error(`glanz ${JOBS[job].join(' ')} fails without a fault: ${run.err}`);
       for (const point of run.recorded.points) {
@@ -193,7 +193,7 @@ export async function cliCampaign({
         journal.miss(trial);
         continue;
       }
-      const outcome: Outcome = { ...trial, ...judge(run, wanted[job] as Run) };
+      const outcome: Outcome = { ...trial, ...judge(run, expected[job] as Run) };
       journal.end(outcome);
       onOutcome?.(outcome, i + 1, chosen.length);
     }

@@ -29,8 +29,8 @@ if (file !== undefined)
 export function create(options: string[]): GPU {
   const gpu = dawn.create(options);
   const requestAdapter = gpu.requestAdapter.bind(gpu);
-  gpu.requestAdapter = async (wanted) => {
-    const adapter = await requestAdapter(wanted);
+  gpu.requestAdapter = async (requested) => {
+    const adapter = await requestAdapter(requested);
     if (!adapter) return adapter;
     const requestDevice = adapter.requestDevice.bind(adapter);
     adapter.requestDevice = async (descriptor) => {

@@ -58,8 +58,8 @@ class PointTable {
   readonly #values: Float64Array;
   #count = 0;
 
-  constructor(most: number) {
-    this.#values = new Float64Array(most * COLUMNS.length);
+  constructor(max: number) {
+    this.#values = new Float64Array(max * COLUMNS.length);
   }
 
   get lastSeconds(): number {
@@ -206,13 +206,13 @@ export function soakPlot(points: readonly SoakPoint[], settledSeconds: number): 
   const last = Math.max(points.at(-1)?.seconds ?? 1, 1);
   const panels = SERIES.map(({ name, key, scale, unit, colour }, index) => {
     const top = 20 + index * (height + gap);
-    const most = Math.max(...points.map((point) => point[key] / scale), 1);
+    const max = Math.max(...points.map((point) => point[key] / scale), 1);
     const x = (seconds: number) => left + ((width - left - 10) * seconds) / last;
-    const y = (value: number) => top + height - (height * value) / (1.1 * most);
+    const y = (value: number) => top + height - (height * value) / (1.1 * max);
     const line = points.map((point) => `${x(point.seconds).toFixed(1)},${y(point[key] / scale).toFixed(1)}`).join(' ');
     const label = (value: number) =>
       `<text x="${left - 6}" y="${y(value) + 4}" text-anchor="end">${value < 10 ? value.toFixed(1).replace('.0', '') : value.toFixed(0)}</text>`;
-    return `<text x="${left}" y="${top - 6}">${name}${unit === '' ? '' : `, ${unit}`}</text><rect x="${left}" y="${top}" width="${width - left - 10}" height="${height}" fill="none" stroke="#999"/><line x1="${x(settledSeconds)}" x2="${x(settledSeconds)}" y1="${top}" y2="${top + height}" stroke="#999" stroke-dasharray="3"/>${label(0)}${label(most)}<polyline points="${line}" fill="none" stroke="${colour}" stroke-width="1.5"/>`;
+    return `<text x="${left}" y="${top - 6}">${name}${unit === '' ? '' : `, ${unit}`}</text><rect x="${left}" y="${top}" width="${width - left - 10}" height="${height}" fill="none" stroke="#999"/><line x1="${x(settledSeconds)}" x2="${x(settledSeconds)}" y1="${top}" y2="${top + height}" stroke="#999" stroke-dasharray="3"/>${label(0)}${label(max)}<polyline points="${line}" fill="none" stroke="${colour}" stroke-width="1.5"/>`;
   });
   const total = 20 + SERIES.length * (height + gap) + 10;
   const ticks = [0, 0.25, 0.5, 0.75, 1]

@@ -111,7 +111,7 @@ export async function profileLoads(
     async (path) => Object.assign(globalThis, { bytesToLoad: await (await fetch(path)).arrayBuffer() }),
     address,
   );
-  const again = (least: number) =>
+  const again = (min: number) =>
     page.evaluate(
       async ({ name, time }) => {
         const { loaders, bytesToLoad } = globalThis as unknown as {
@@ -122,7 +122,7 @@ export async function profileLoads(
         do await loaders[name]!(bytesToLoad.slice(0));
         while (performance.now() - begun < time);
       },
-      { name: loader, time: least },
+      { name: loader, time: min },
     );
   await again(0);
   await session.send('Profiler.start');

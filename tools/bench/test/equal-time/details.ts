@@ -31,7 +31,7 @@ export function measurement(scene: string, contestant: ContestantName, error: nu
 }
 
 /**
- * Two scenes: one of the catalogue where the peer errs 100 times as much, one product scene where it is 16 times as
+ * Two scenes: one of the reference set where the peer errs 100 times as much, one product scene where it is 16 times as
  * noisy.
  */
 export const DETAILS: EqualTimeDetails = {
@@ -39,7 +39,7 @@ export const DETAILS: EqualTimeDetails = {
   size: 512,
   runs: 2,
   scenes: [
-    { name: 'box', title: 'a box', truth: 'catalogue' },
+    { name: 'box', title: 'a box', truth: 'references' },
     { name: 'product', title: 'a product', truth: 'own' },
   ],
   measurements: [

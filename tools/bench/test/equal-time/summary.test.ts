@@ -33,7 +33,7 @@ describe('comparisons', () => {
     const whole = overall(DETAILS, PEER, fairQuantity)!;
     expect(whole.count).toBe(4);
     expect(whole.mean).toBeCloseTo(40, 6);
-    expect([whole.least, whole.most].map(Math.round)).toEqual([16, 100]);
+    expect([whole.min, whole.max].map(Math.round)).toEqual([16, 100]);
     expect(
       overall(DETAILS, 'three-gpu-pathtracer (defaults)', ({ truth }) => (truth === 'own' ? 'relMSE' : undefined)),
     ).toBeUndefined();

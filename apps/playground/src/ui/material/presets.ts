@@ -58,9 +58,9 @@ export function presetGrid(context: Context): HTMLElement {
     grid.append(button);
   }
   search.addEventListener('input', () => {
-    const wanted = search.value.trim().toLowerCase().replaceAll(' ', '_');
+    const requested = search.value.trim().toLowerCase().replaceAll(' ', '_');
     for (const button of grid.querySelectorAll<HTMLElement>('.preset'))
-      button.hidden = !(button.dataset['preset'] ?? '').includes(wanted);
+      button.hidden = !(button.dataset['preset'] ?? '').includes(requested);
   });
   return element('div', {}, search, grid);
 }

@@ -37,14 +37,14 @@ export async function taskCommand(
     stop.abort();
   });
   const renderer = farmRenderer(io, backend, gpus[0]);
-  const wanted = images && new Set(images);
+  const requested = images && new Set(images);
   let rendered = 0;
   let done = 0;
   try {
     for await (const image of plan.images(store)) {
       const { index, id, requests, paths } = image;
       const name = imageName(image);
-      if (wanted && !wanted.delete(index) && !wanted.delete(name)) continue;
+      if (requested && !requested.delete(index) && !requested.delete(name)) continue;
       let result = await store.result(id);
       const merge = requests[0]?.job.merge;
       for (const job of result ? [] : jobsOf(requests, merge, part)) {
@@ -56,13 +56,13 @@ export async function taskCommand(
       }
       if (result?.id === id) await store.deliver(result, { root: plan.outputRoot, paths });
       done++;
-      if (wanted?.size === 0) break;
+      if (requested?.size === 0) break;
     }
   } finally {
     stopListening();
     progress.clear();
   }
-  const [unknown] = wanted ?? [];
+  const [unknown] = requested ?? [];
   if (unknown !== undefined) throw usage(`--image: the batch has no image "${unknown}".`);
   if (json) io.stdout(jsonLine({ ok: true, images: done, rendered }));
   else if (!quiet) io.stderr(`${visible(`${done} images, ${rendered} jobs rendered`)}\n`);

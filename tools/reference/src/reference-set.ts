@@ -59,10 +59,10 @@ export interface ReferenceImage {
 const OWN = 'tools/reference/scenes';
 
 /**
- * The folder of the catalogue: the one that `GLANZ_GROUNDTRUTH` names, or `tools/reference/scenes`; `undefined` where
+ * The folder of the reference set: the one that `GLANZ_GROUNDTRUTH` names, or `tools/reference/scenes`; `undefined` where
  * neither is found, such as in a bundle outside of the repository.
  */
-export function catalogueFolder(): string | undefined {
+export function referenceFolder(): string | undefined {
   const named = process.env['GLANZ_GROUNDTRUTH'];
   if (named) return existsSync(join(named, 'tolerances.json')) ? named : undefined;
   // Looked for upwards, since a bundle lies elsewhere than this source.
@@ -77,12 +77,12 @@ const json = <T>(file: string) => JSON.parse(readFileSync(file, 'utf8')) as T;
 
 /** Channels of an EXR as RGB, stride 3. */
 function rgbOf({ width, height, channels }: ExrImage, file: string, layer: string): Float32Array {
-  const planes = ['R', 'G', 'B'].map((name) => {
+  const values = ['R', 'G', 'B'].map((name) => {
     const data = channels.get(`${layer}${name}`)?.data;
     if (!data) throw new ReferenceError('reference/channels', `${file} has no channel ${layer}${name}.`);
     return data;
   });
-  return Float32Array.from({ length: 3 * width * height }, (_, i) => planes[i % 3]![Math.floor(i / 3)]!);
+  return Float32Array.from({ length: 3 * width * height }, (_, i) => values[i % 3]![Math.floor(i / 3)]!);
 }
 
 function floats(file: string): Float32Array {
@@ -115,7 +115,7 @@ function lookAt(camera: SceneDescription['camera']): PerspectiveCamera {
   };
 }
 
-/** What the catalogue says about a material beyond glTF. */
+/** What the reference set says about a material beyond glTF. */
 interface GroundTruthExtras {
   readonly gt?: {
     readonly f82_tint?: Vector;
@@ -123,7 +123,7 @@ interface GroundTruthExtras {
   };
 }
 
-/** glTF has no way to say F82 tint or a scattering medium: the catalogue puts them into the extras. */
+/** glTF has no way to say F82 tint or a scattering medium: the reference set puts them into the extras. */
 function applyExtras(material: Material): Material {
   const { f82_tint, medium } = (material.extras as GroundTruthExtras | undefined)?.gt ?? {};
   const parameters = { ...material.parameters };
@@ -140,7 +140,7 @@ function applyExtras(material: Material): Material {
   return { ...material, parameters };
 }
 
-/** One scene of the catalogue. */
+/** One scene of the reference set. */
 export class GroundTruth {
   readonly folder: string;
   readonly description: SceneDescription;
@@ -150,19 +150,19 @@ export class GroundTruth {
 
   /**
    * @param loading How its images are decoded, where it is read.
-   * @throws {ReferenceError} `reference/absent` without the catalogue, `reference/unknown-scene`
+   * @throws {ReferenceError} `reference/absent` without the reference set, `reference/unknown-scene`
    */
   constructor(name: string, loading: GltfOptions = {}) {
     this.#loading = loading;
-    const scenes = catalogueFolder();
+    const scenes = referenceFolder();
     if (!scenes)
       throw new ReferenceError(
         'reference/absent',
-        'The ground-truth catalogue is not here: set GLANZ_GROUNDTRUTH to its folder "scenes".',
+        'The reference set is not here: set GLANZ_GROUNDTRUTH to its folder "scenes".',
       );
     this.folder = join(scenes, name);
     if (!existsSync(join(this.folder, 'scene.json')))
-      throw new ReferenceError('reference/unknown-scene', `The ground-truth catalogue has no scene "${name}".`);
+      throw new ReferenceError('reference/unknown-scene', `The reference set has no scene "${name}".`);
     this.description = json(join(this.folder, 'scene.json'));
     this.tolerance = json<Record<string, Tolerance>>(join(scenes, 'tolerances.json'))[name] as Tolerance;
   }
@@ -179,7 +179,7 @@ export class GroundTruth {
   }
 
   /**
-   * The reference image of a variant: an EXR with the channels R, G, B and `standard_error.R`, …, or, in catalogues
+   * The reference image of a variant: an EXR with the channels R, G, B and `standard_error.R`, …, or, in reference sets
    * with full precision, float32 files for both.
    *
    * @throws {ReferenceError} `reference/unknown-variant`, `reference/channels`
