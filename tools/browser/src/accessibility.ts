@@ -4,7 +4,7 @@ import type { Page } from '@playwright/test';
 
 interface Axe {
   run(
-    context: Document,
+    context: Document | { readonly exclude: readonly string[][] },
     options: object,
   ): Promise<{
     readonly violations: readonly {
@@ -16,22 +16,27 @@ interface Axe {
 
 let script = '';
 
-/** Faults that axe finds in the page as it is: its rule and the element, one line each. */
-export async function checkAccessibility(page: Page): Promise<string[]> {
+/**
+ * Faults that axe finds in the page as it is: its rule and the element, one line each.
+ *
+ * @param exclude Selectors of parts that are not looked at, such as navigation that other pages have shown.
+ */
+export async function checkAccessibility(page: Page, exclude: readonly string[] = []): Promise<string[]> {
   script ||= readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
   // A page's policy may keep strangers' scripts out; the debugger's are none.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(script);
-  return page.evaluate(async () => {
+  return page.evaluate(async (without) => {
     // What fades is looked at when it has: a theme that has just been changed, a menu that comes.
     for (const animation of document.getAnimations())
       if (animation.effect?.getComputedTiming().endTime !== Infinity) animation.finish();
-    const { violations } = await (globalThis as unknown as { axe: Axe }).axe.run(document, {
-      resultTypes: ['violations'],
-    });
+    const { violations } = await (globalThis as unknown as { axe: Axe }).axe.run(
+      without.length > 0 ? { exclude: without.map((selector) => [selector]) } : document,
+      { resultTypes: ['violations'] },
+    );
     return violations.flatMap(({ id, nodes }) =>
       nodes.map(
         ({ target, failureSummary }) => `${id}: ${target.join(' ')}: ${failureSummary.split('\n')[1]?.trim() ?? ''}`,
       ),
     );
-  });
+  }, exclude);
 }
