@@ -18,10 +18,26 @@ const LONG = [
   'test/gpu/',
 ];
 
+/**
+ * Files that share processes stand together by project, since Vitest keeps a process only for the file that comes next
+ * in the queue. These groups and all other files come with the longest first, and the others at the end: many short
+ * ones keep both cores busy to the last.
+ */
 class LongestFirst extends BaseSequencer {
   override async sort(files: TestSpecification[]): Promise<TestSpecification[]> {
     const place = ({ moduleId }: TestSpecification) => [...LONG, ''].findIndex((part) => moduleId.includes(part));
-    return (await super.sort(files)).sort((a, b) => place(a) - place(b));
+    const groups = new Map<string, TestSpecification[]>();
+    for (const file of await super.sort(files)) {
+      const { name, isolate } = file.project.config;
+      const key = isolate ? file.moduleId : `project ${name}`;
+      groups.set(key, [...(groups.get(key) ?? []), file]);
+    }
+    return [...groups.values()]
+      .map((group) => group.sort((a, b) => place(a) - place(b)))
+      .sort(
+        ([a], [b]) => place(a!) - place(b!) || Number(a!.project.config.isolate) - Number(b!.project.config.isolate),
+      )
+      .flat();
   }
 }
 
