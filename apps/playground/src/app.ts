@@ -5,7 +5,6 @@ import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
 import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened, type OpenedLink } from './input/opening';
 import type { ModelRequest } from './input/load-messages';
-import type { Poser } from './input/poser';
 import { SAMPLES } from './input/samples';
 import { wireFiles } from './input/wire-files';
 import { Selection } from './selection';
@@ -24,6 +23,7 @@ import { CameraRig } from './viewer/camera-rig';
 import { applyChange, present, type EffectsHost } from './viewer/effects';
 import { filmSize } from './viewer/film-size';
 import { Outline } from './viewer/outline';
+import type { Posing } from './viewer/posing';
 import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
 import { chosenInVariant, assignedMaterial } from './viewer/assigned-material';
@@ -48,8 +48,7 @@ export class App {
   #opened: Opened | undefined;
   #link: OpenedLink | undefined;
   #loading: AbortController | undefined;
-  #poser: Poser | undefined;
-  #posing: Promise<boolean> | undefined;
+  #posing: Promise<Posing> | undefined;
   #context: Promise<Context> | undefined;
 
   private constructor() {
@@ -188,54 +187,24 @@ export class App {
     });
   }
 
-  /** Opens what was dropped or picked: a model, an environment, a material, or several of them. */
+  /** Opens what was dropped or picked. */
   async #open(files: ReadonlyMap<string, File> | Promise<ReadonlyMap<string, File>>): Promise<void> {
     try {
-      const { environmentNote, sortFiles } = await import('./input/sort-files');
-      const given = await files;
-      const { model, environment, material } = sortFiles(given);
-      let note: string | undefined;
-      if (environment) {
-        try {
-          await this.#environments.load(environment);
-        } catch (error) {
-          // A model that came with it is still shown.
-          if (!model) throw error;
-          note = environmentNote(error);
-        }
-      }
-      if (environment && !note) {
-        this.#messages.clearErrors();
-        // Another file under the same choice is no change of state.
-        if (this.#store.state.environment === 'file')
-          this.#session.edit('environment', (tracer) =>
-            tracer.setEnvironment(this.#environments.choose(this.#store.state, this.#opened?.scene)),
-          );
-        else this.#store.set({ environment: 'file' }, { label: 'Environment' });
-        for (const listener of this.#environmentListeners) listener();
-      }
-      if (model) await this.load({ kind: 'files', files: model.files, entry: model.entry });
-      if (note) this.#messages.show({ kind: 'note', text: note, code: 'playground/environment', stays: true });
-      if (material && !model && this.#opened) {
-        const [{ materialFromFiles }, { replaceMaterial }] = await Promise.all([
-          import('./output/materialx'),
-          import('./ui/material/edits'),
-        ]);
-        const { parameters, slots, name, notes } = await materialFromFiles(material, given);
-        const { material: index } = this.#selection.chosen;
-        const target = this.#opened.scene.materials[index];
-        if (!target) return;
-        replaceMaterial(
-          this.#store,
-          target,
-          index,
-          parameters,
-          `MaterialX "${name}"`,
-          Object.fromEntries(Object.entries(slots).map(([key, slot]) => [`${index}/${key}`, slot])),
-        );
-        this.#messages.clearErrors();
-        this.#say([`"${name}" is now on "${target.name}".`, ...notes.slice(0, 1)].join(' '));
-      }
+      const { openFiles } = await import('./input/open-files');
+      await openFiles(
+        {
+          store: this.#store,
+          session: this.#session,
+          selection: this.#selection,
+          environments: this.#environments,
+          scene: () => this.#opened?.scene,
+          load: (request) => this.load(request),
+          onEnvironmentFile: () => this.#environmentListeners.forEach((listener) => listener()),
+          clearErrors: () => this.#messages.clearErrors(),
+          show: (message) => this.#messages.show(message),
+        },
+        await files,
+      );
     } catch (error) {
       this.#fail(error);
     }
@@ -368,43 +337,20 @@ export class App {
 
   /** The model in the pose that the state says. @returns Whether there is a model to pose, and it has been. */
   async #pose(): Promise<boolean> {
-    // The last one that was asked for counts.
-    if (this.#posing) await this.#posing;
-    return (this.#posing ??= this.#poseNow().finally(() => (this.#posing = undefined)));
-  }
-
-  async #poseNow(): Promise<boolean> {
-    const opened = this.#opened;
-    const request = opened?.request;
-    if (!opened || request?.kind !== 'files') return false;
-    const [{ Poser }, { applyPose, movesMany, posedScene }] = await Promise.all([
-      import('./input/poser'),
-      import('./viewer/pose'),
-    ]);
-    if (this.#poser?.request !== request) {
-      this.#poser?.destroy();
-      this.#poser = new Poser(request);
-    }
-    try {
-      const { clip, time } = this.#store.state;
-      const pose = await this.#poser.pose(clip, time);
-      if (this.#opened !== opened) return false;
-      const scene = posedScene(opened.scene, pose);
-      if (!scene) {
-        const { animation: _a, time: _t, ...rest } = request;
-        await this.load(clip === null ? rest : { ...rest, animation: clip, time }, undefined, this.#store.state);
-        return true;
-      }
-      this.#opened = { ...opened, scene };
-      this.#rig.pose(scene);
-      this.#outline?.clear();
-      if (movesMany(opened.scene, scene)) await present(scene, () => this.#store.state, this.#host());
-      else await this.#session.edit('pose', (tracer) => applyPose(tracer, scene, this.#store.state));
-      return true;
-    } catch (error) {
-      this.#fail(error);
-      return false;
-    }
+    this.#posing ??= import('./viewer/posing').then(
+      ({ Posing }) =>
+        new Posing({
+          effects: this.#host(),
+          opened: () => this.#opened,
+          setPosed: (opened) => {
+            this.#opened = opened;
+            this.#rig.pose(opened.scene);
+            this.#outline?.clear();
+          },
+          load: (request, state) => this.load(request, undefined, state),
+        }),
+    );
+    return (await this.#posing).pose();
   }
 
   async #dropPreset(name: string, x: number, y: number): Promise<void> {
