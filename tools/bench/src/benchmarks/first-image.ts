@@ -1,5 +1,7 @@
 import { execFile } from 'node:child_process';
+import { existsSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
+import { resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { createPushButton } from '@glanz/models';
@@ -7,10 +9,18 @@ import { PathTracer, requestDevice, warmUp, type RenderStatistics } from '@glanz
 import { createGpu } from '@glanz/renderer/node';
 import { benchWorkers, servesBenchmark } from '../bvh/threads';
 import { BenchError } from '../error';
-import { timed, type Benchmark, type BenchmarkContext, type Figure } from '../benchmark';
+import { estimated, timed, type Benchmark, type BenchmarkContext, type Figure } from '../benchmark';
 
 /** Set in the processes that this benchmark starts: the GPU to use, or empty. */
 const CHILD = 'GLANZ_BENCH_FIRST_IMAGE';
+
+/** What is compared with another bundle: the whole, and the stages that take longest. */
+const COMPARED: ReadonlySet<string> = new Set([
+  'process start to first image',
+  'scene in memory to first sample',
+  'hierarchies',
+  'pipelines',
+]);
 
 /** Milliseconds since the process began, at the end of each stage, and the tracer's own figures. */
 interface Stages {
@@ -93,23 +103,38 @@ async function measure({ log, quick, gpu, values }: BenchmarkContext) {
   const threads = Number(values['workers'] ?? Math.min(8, availableParallelism()));
   if (!Number.isInteger(threads) || threads < 0)
     throw new BenchError('bench/option', `--workers ${values['workers']}: it must be a whole number, 0 for none.`);
-  const run = async (warm: boolean) => {
+  const repeats = Number(values['repeats'] ?? (quick ? 1 : 7));
+  if (!Number.isInteger(repeats) || repeats < 1)
+    throw new BenchError('bench/option', `--repeats ${values['repeats']}: it must be a whole number from 1.`);
+  const against = values['against'] === undefined ? undefined : resolve(values['against']);
+  if (against !== undefined && !existsSync(against))
+    throw new BenchError('bench/option', `--against ${against}: there is no such file.`);
+  if (against !== undefined && repeats < 2)
+    throw new BenchError('bench/option', '--against needs at least two --repeats.');
+  const run = async (warm: boolean, file = fileURLToPath(import.meta.url)) => {
     const env = { ...process.env, [CHILD]: JSON.stringify([gpu ?? '', size, threads, warm]) };
-    const { stdout } = await promisify(execFile)(process.execPath, [fileURLToPath(import.meta.url)], { env });
+    const { stdout } = await promisify(execFile)(process.execPath, [file], { env });
     const stages = JSON.parse(stdout.slice(stdout.indexOf('{'))) as Stages;
     log(
-      `first sample ${(stages.sampled - stages.scene).toFixed(0)} ms after the scene was in memory${warm ? ', warmed up' : ''}`,
+      `first sample ${(stages.sampled - stages.scene).toFixed(0)} ms after the scene was in memory${warm ? ', warmed up' : ''}${file === against ? ', the other bundle' : ''}`,
     );
     return stages;
   };
   const cold = await run(false);
   const plain: Stages[] = [];
   const ready: Stages[] = [];
-  // In turns, so that a disturbance of the machine meets both alike.
-  for (let i = 0; i < (quick ? 1 : 7); i++) {
-    plain.push(await run(false));
-    ready.push(await run(true));
-  }
+  const others: Stages[] = [];
+  const otherReady: Stages[] = [];
+  const turns = [
+    async () => plain.push(await run(false)),
+    async () => ready.push(await run(true)),
+    ...(against === undefined
+      ? []
+      : [async () => others.push(await run(false, against)), async () => otherReady.push(await run(true, against))]),
+  ];
+  // In turns, so that a disturbance of the machine meets all alike, each second time in the opposite order, so that
+  // neither gains where the machine gets slower or faster.
+  for (let i = 0; i < repeats; i++) for (const turn of i % 2 === 0 ? turns : [...turns].reverse()) await turn();
   const rows: readonly (readonly [string, (stages: Stages) => number])[] = [
     ['process start to first image', ({ read }) => read],
     ['program loaded', ({ loaded }) => loaded],
@@ -140,9 +165,24 @@ async function measure({ log, quick, gpu, values }: BenchmarkContext) {
     timed(`${name}, warmed up`, 'ms', ready.map(value), goal(name === 'scene in memory to first sample', 150)),
     timed(`${name}, first process`, 'ms', [value(cold)], goal(name === 'pipelines', 1000)),
   ]);
+  if (against !== undefined)
+    for (const [name, value] of rows.filter(([row]) => COMPARED.has(row)))
+      for (const [suffix, ours, theirs] of [
+        ['', plain, others],
+        [', warmed up', ready, otherReady],
+      ] as const)
+        figures.push(
+          estimated(
+            `${name}${suffix}, over the other bundle's`,
+            '1',
+            ours.map((stages, i) => value(stages) / value(theirs[i]!)),
+          ),
+        );
   return {
     settings: {
       model: 'push-button medium',
+      repeats,
+      ...(against === undefined ? {} : { against }),
       workers: threads,
       width: size,
       height: size,
@@ -166,6 +206,11 @@ export const benchmark: Benchmark = {
     workers: {
       type: 'string',
       help: 'threads that build hierarchies, 0 for the main thread alone; default: one a core, at most 8',
+    },
+    repeats: { type: 'string', help: 'processes of each kind; default: 7' },
+    against: {
+      type: 'string',
+      help: 'a bundle of this benchmark from another state of the sources, whose processes alternate with these',
     },
   },
   async run(context) {
