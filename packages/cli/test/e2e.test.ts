@@ -126,7 +126,8 @@ describe('a red square', () => {
     };
     const plain = await layers('plain.exr', '--samples', '36');
     const denoised = await layers('denoised.exr', '--samples', '36', '--denoise', 'fast');
-    const reference = await layers('reference.exr', '--samples', '512', '--seed', '9');
+    // Its own noise adds the same to both errors, and so brings their ratio nearer to 1.
+    const reference = await layers('reference.exr', '--samples', '192', '--seed', '9');
     for (const name of ['R', 'G', 'B', 'A']) expect(denoised.get(name)).toEqual(plain.get(name));
     const error = (image: typeof plain, prefix: string) => {
       let sum = 0;
