@@ -26,4 +26,4 @@ export {
 } from './worker/renderer-process';
 export { serveRenderer, type JobRenderer } from './worker/serve-renderer';
 export { farmMetrics } from './metrics';
-export { statusServer } from './serve/status-server';
+export { statusServer, type StatusServer } from './serve/status-server';

@@ -23,7 +23,7 @@ describe('content', () => {
     const hash = await store.put('content');
     expect(hash).toBe(createHash('sha256').update('content').digest('hex'));
     expect(await store.put(Buffer.from('content'))).toBe(hash);
-    expect((await store.read(hash)).toString()).toBe('content');
+    expect(Buffer.from(await store.read(hash)).toString()).toBe('content');
     writeFileSync(store.objectPath(hash), 'other');
     await expect(store.read(hash)).rejects.toMatchObject({ code: 'farm/store' });
     await expect(store.read('0'.repeat(64))).rejects.toMatchObject({ code: 'farm/store' });

@@ -5,6 +5,7 @@ import type { AddressInfo } from 'node:net';
 import { extname, join, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import type { StatusServer } from '@glanz/farm';
 import { CliError, EXIT } from '../errors';
 import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
@@ -108,7 +109,7 @@ export function fileServer(folder: string): Server {
 }
 
 /** Listens, on any free port for 0. @throws {CliError} `cli/port` */
-export async function listen(server: Server, port: number, host: string): Promise<void> {
+export async function listen(server: StatusServer, port: number, host: string): Promise<void> {
   await new Promise<void>((done, fail) => {
     server.once('error', (cause: NodeJS.ErrnoException) =>
       fail(

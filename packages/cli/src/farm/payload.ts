@@ -4,7 +4,6 @@ import { isEnvironmentFile } from '../environment';
 import type { RenderCommandOptions } from '../options';
 import type { OutputTarget } from '../output/formats';
 import type { Shot } from '../render/shots';
-import { version } from '../version';
 import type { View } from '../views';
 
 /** What a renderer's process gets of a job. Files are named by their content. */
@@ -42,9 +41,6 @@ export function identityOf(kind: string, { view, ...payload }: JobPayload, parts
 /** The file of a job's result. */
 export const outputName = (index: number, { format }: Pick<OutputTarget, 'format'>): string => `${index}.${format}`;
 
-/** A payload for this version. */
-export const payloadOf = (payload: Omit<JobPayload, 'version'>): JobPayload => ({ version: version(), ...payload });
-
 /**
  * The image that a payload asks for, with its files in a folder.
  *
@@ -56,7 +52,7 @@ export async function shotOf(
   folder: string,
   checkpoint: string | undefined,
 ): Promise<Shot> {
-  const common = JSON.parse((await store.read(payload.options)).toString()) as RenderCommandOptions;
+  const common = JSON.parse(new TextDecoder().decode(await store.read(payload.options))) as RenderCommandOptions;
   const file = async ({ bundle, file: name }: JobPayload['scene']) => resolve(await store.bundle(bundle), name);
   const { range } = payload;
   const outputs = payload.outputs.map(({ format, bits }, i) => ({

@@ -7,7 +7,8 @@ import { CliError } from '../errors';
 import { checkInput, MAX_SETTINGS_BYTES, readInput } from '../input';
 import type { RenderCommandOptions, RenderValues } from '../options';
 import { shotLabel, shotsOf, type Shot } from '../render/shots';
-import { commonOptions, identityOf, payloadOf, type JobPayload } from './payload';
+import { commonOptions, identityOf, type JobPayload } from './payload';
+import { version } from '../version';
 import { modelFiles } from './model-files';
 
 /** An image of a batch and the jobs that make it: one, or parts and their merge. */
@@ -47,6 +48,7 @@ export class FarmPlan {
   readonly #scenes = new Map<string, Promise<JobPayload['scene']>>();
   readonly #common = new Map<RenderCommandOptions, Promise<string>>();
   readonly #variants = new Map<string, Promise<readonly string[]>>();
+  readonly #version = version();
   #warnedSplit = false;
 
   private constructor(options: PlanOptions, requests: () => Iterable<BatchRequest>) {
@@ -129,14 +131,15 @@ export class FarmPlan {
     const { env } = options;
     const root = this.outputRoot;
     const paths = shot.outputs.map(({ path }) => relative(root, resolve(cwd, path)));
-    const whole = payloadOf({
+    const whole: JobPayload = {
+      version: this.#version,
       scene: await this.#scene(options.model, store),
       ...(isEnvironmentFile(env) ? { env: await this.#environment(env, store) } : {}),
       options: await this.#commonOf(options, store),
       ...(variant === undefined ? {} : { variant }),
       view: await this.#viewOf(view),
       outputs: shot.outputs.map(({ format, bits }) => ({ format, bits })),
-    });
+    };
     const label = shotLabel({
       ...shot,
       outputs: shot.outputs.map((target, i) => ({ ...target, path: paths[i] as string })),

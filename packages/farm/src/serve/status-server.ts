@@ -1,5 +1,5 @@
 import { createReadStream } from 'node:fs';
-import { createServer, type Server, type ServerResponse } from 'node:http';
+import { createServer, type ServerResponse } from 'node:http';
 import { join } from 'node:path';
 import { farmMetrics } from '../metrics';
 import type { FarmQueue } from '../queue/farm-queue';
@@ -9,6 +9,15 @@ import { STATUS_PAGE } from './status-page';
 /** Nothing from anywhere else: the page's own style and script, its images and data from this server. */
 const POLICY =
   "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/** A server of `node:http`. */
+export interface StatusServer {
+  listen(port: number, host: string, listening: () => void): unknown;
+  once(event: 'error', listener: (error: Error) => void): unknown;
+  address(): { readonly port: number } | string | null;
+  close(closed?: () => void): unknown;
+  closeAllConnections(): void;
+}
 
 /** Milliseconds for which an answer is reused: many pages that are open cost as much as one. */
 const FRESH_MS = 500;
@@ -24,7 +33,7 @@ const FRESH_MS = 500;
  * | `/metrics` | Prometheus text |
  * | `/result/ID/N` | the Nth file of a result, `.png` only |
  */
-export function statusServer(queue: FarmQueue, store: FolderStore): Server {
+export function statusServer(queue: FarmQueue, store: FolderStore): StatusServer {
   let cached: { readonly at: number; readonly text: Promise<string> } | undefined;
   const statusText = () => {
     if (!cached || Date.now() - cached.at > FRESH_MS) {

@@ -77,7 +77,7 @@ export class FolderStore {
   }
 
   /** The bytes of content. @throws {FarmError} `farm/store` if they are not there, or are others */
-  async read(hash: string): Promise<Buffer> {
+  async read(hash: string): Promise<Uint8Array> {
     const file = this.objectPath(hash);
     const bytes = await readFile(file).catch((cause: Error) => {
       throw new FarmError('farm/store', `The store has no object ${hash}: ${cause.message}.`, { cause });
@@ -101,7 +101,7 @@ export class FolderStore {
   async bundle(hash: string): Promise<string> {
     const folder = join(this.folder, 'bundles', checked(hash));
     if (await exists(folder)) return folder;
-    const list = JSON.parse((await this.read(hash)).toString()) as [string, string][];
+    const list = JSON.parse(new TextDecoder().decode(await this.read(hash))) as [string, string][];
     const partial = partialOf(folder);
     await mkdir(partial, { recursive: true });
     try {

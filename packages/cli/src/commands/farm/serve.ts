@@ -1,4 +1,3 @@
-import type { AddressInfo } from 'node:net';
 import { resolve } from 'node:path';
 import { FolderStore, statusServer, type FarmQueue } from '@glanz/farm';
 import { EXIT } from '../../errors';
@@ -15,7 +14,7 @@ export async function serveFarm(
 ): Promise<number> {
   const server = statusServer(queue, new FolderStore(resolve(io.cwd, store)));
   await listen(server, port, host);
-  const { port: actual } = server.address() as AddressInfo;
+  const { port: actual } = server.address() as { readonly port: number };
   const url = `http://${host.includes(':') ? `[${host}]` : host}:${actual}/`;
   if (json) io.stdout(jsonLine({ ok: true, url }));
   else if (!quiet) io.stderr(`${visible(url)} — Ctrl-C ends\n`);
@@ -26,6 +25,6 @@ export async function serveFarm(
     });
   });
   server.closeAllConnections();
-  await new Promise((done) => server.close(done));
+  await new Promise<void>((done) => server.close(() => done()));
   return EXIT.ok;
 }
