@@ -39,6 +39,7 @@ export class NetworkKernels {
     this.#convolutions = convolutions;
     this.#flags = {
       DENOISE_HALF: storage === 'f16',
+      DENOISE_F16: storage === 'f16' && device.features.has('shader-f16'),
       DENOISE_HDR: input === 'hdr',
       DENOISE_NORMAL: input === 'normal',
       DENOISE_LINEAR: input === 'ldr' || input === 'albedo',

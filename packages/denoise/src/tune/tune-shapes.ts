@@ -10,7 +10,7 @@ import type { DenoiserOptions, LayerSize } from '../options';
 import { pauses } from '../pace';
 import { planLayer, type LayerPlan } from '../plan';
 import { readyLayer, type ReadyLayer } from '../ready-layer';
-import { TuneClock, type Work } from './clock';
+import { CLOCK_CAPACITY, TuneClock, type Work } from './clock';
 
 /** Options for {@link tuneShapes}: those of the denoiser that is to use the shapes, the size, and limits. */
 export interface TuneOptions extends Omit<DenoiserOptions, 'shapeOf'> {
@@ -23,6 +23,8 @@ export interface TuneOptions extends Omit<DenoiserOptions, 'shapeOf'> {
    * ones come first. Default 900.
    */
   readonly maxMs?: number;
+  /** Called after each layer with the part of the work of all layers that was measured, 0 to 1. */
+  readonly onProgress?: (done: number) => void;
 }
 
 /** Shapes by layer, channels and pixels: plain data, the same keys in the same order for a network and a size. */
@@ -31,8 +33,14 @@ export type TunedShapes = Readonly<Record<string, KernelFamily>>;
 /** Shapes that are measured of a layer. */
 const CANDIDATES = 6;
 
-/** Times that the best of them are measured again. */
-const ROUNDS = 3;
+// Browsers round timestamps to 65 µs or 100 µs: one measurement of 2 ms is off by 2 %, the mean of four of 4 ms by 0.4 %.
+/** Milliseconds and repetitions of the measurements of all shapes. */
+const FIRST = { milliseconds: 2, rounds: 2 } as const;
+/** The same for the best of them. */
+const FINAL = { milliseconds: 4, rounds: 4 } as const;
+
+/** Layers that are compiled while another one is measured. */
+const AHEAD = 3;
 
 /** A shape that is faster than the usual one by less than this factor is not taken: that is noise. */
 const MARGIN = 0.99;
@@ -57,7 +65,7 @@ export const shapesFrom =
 interface Trial {
   readonly shape: KernelShape;
   readonly layer: ReadyLayer;
-  /** Milliseconds of the rounds since the last comparison, for a row of pixels. */
+  /** Milliseconds of a row of pixels, summed over the rounds of a comparison. */
   spent: number;
 }
 
@@ -164,15 +172,10 @@ class Tuner {
     const [usual] = trials;
     if (!usual) return undefined;
     await this.#learn(usual);
-    await this.#round(trials);
-    if (this.#limit.reached) return undefined;
+    if (!(await this.#compare(trials, FIRST))) return undefined;
     const others = trials.filter((trial) => trial !== usual).sort((a, b) => a.spent - b.spent);
     const finalists = [usual, ...others.slice(0, 2)];
-    for (const trial of finalists) trial.spent = 0;
-    for (let i = 0; i < ROUNDS; i++) {
-      if (this.#limit.reached) return undefined;
-      await this.#round(finalists);
-    }
+    if (!(await this.#compare(finalists, FINAL))) return undefined;
     const fastest = finalists.reduce((a, b) => (b.spent < a.spent ? b : a));
     return familyOf((fastest.spent < MARGIN * usual.spent ? fastest : usual).shape);
   }
@@ -187,7 +190,7 @@ class Tuner {
 
   /** Finds the speed at which the layer is computed. */
   async #learn(trial: Trial): Promise<void> {
-    const aim = this.#submitMs / CANDIDATES;
+    const aim = Math.min(FIRST.milliseconds, this.#submitMs);
     // Ten times more each: from a CPU's speed to that of the largest GPU.
     for (let i = 0; i < 8 && !this.#limit.reached; i++) {
       const portion = this.#portion(trial, aim);
@@ -199,10 +202,20 @@ class Tuner {
     }
   }
 
-  async #round(trials: readonly Trial[]): Promise<void> {
-    const portion = this.#portion(trials[0]!, this.#submitMs / trials.length);
-    const times = await this.#clock.measure(trials.map((trial) => workOf(trial, portion)));
-    for (const [i, trial] of trials.entries()) trial.spent += times[i]! / rowsOf(trial, portion) / portion.repeats;
+  /** Measures shapes one after the other, several times; `false` where the time did not suffice. */
+  async #compare(trials: readonly Trial[], { milliseconds, rounds }: typeof FIRST | typeof FINAL): Promise<boolean> {
+    const aim = Math.min(milliseconds, this.#submitMs);
+    const portion = this.#portion(trials[0]!, aim);
+    const together = Math.max(1, Math.min(CLOCK_CAPACITY, Math.floor(this.#submitMs / aim)));
+    for (const trial of trials) trial.spent = 0;
+    for (let round = 0; round < rounds; round++)
+      for (let i = 0; i < trials.length; i += together) {
+        if (this.#limit.reached) return false;
+        const some = trials.slice(i, i + together);
+        const times = await this.#clock.measure(some.map((trial) => workOf(trial, portion)));
+        for (const [k, trial] of some.entries()) trial.spent += times[k]! / rowsOf(trial, portion) / portion.repeats;
+      }
+    return !this.#limit.reached;
   }
 }
 
@@ -245,7 +258,7 @@ const familyOf = ({ groups: _, ...family }: KernelShape): KernelFamily => family
 export async function tuneShapes(
   device: GPUDevice,
   weights: Uint8Array | ArrayBuffer,
-  { width, height, maxMs = 900, signal, ...options }: TuneOptions,
+  { width, height, maxMs = 900, signal, onProgress, ...options }: TuneOptions,
 ): Promise<TunedShapes> {
   signal?.throwIfAborted();
   checkOptions(options);
@@ -284,17 +297,23 @@ export async function tuneShapes(
       }
     const costOf = ({ plan }: { readonly plan: LayerPlan }) => plan.costOfRow * plan.workgroups[1];
     const order = [...layers].sort(([, a], [, b]) => costOf(b) - costOf(a));
-    // While a layer is measured, the driver compiles the next one.
-    let next: Promise<Trial[]> | undefined;
-    for (const [i, [key, { stage, plan }]] of order.entries()) {
-      const compiled = next ?? tuner.compile(stage, plan, software);
-      const after = order[i + 1]?.[1];
-      next = after && tuner.compile(after.stage, after.plan, software);
-      next?.catch(() => undefined);
-      const trials = await limit.within(compiled);
-      if (!trials || limit.reached) break;
-      const best = await tuner.best(trials);
-      if (best) tuned[key] = best;
+    const total = order.reduce((sum, [, layer]) => sum + costOf(layer), 0);
+    let done = 0;
+    // While a layer is measured, the driver compiles the next ones.
+    const compiled: Promise<Trial[]>[] = [];
+    for (const [i, [key, layer]] of order.entries()) {
+      while (compiled.length < Math.min(order.length, i + 1 + AHEAD)) {
+        const [, { stage, plan }] = order[compiled.length]!;
+        const begun = tuner.compile(stage, plan, software);
+        begun.catch(() => undefined);
+        compiled.push(begun);
+      }
+      const trials = await limit.within(compiled[i]!);
+      const best = trials && (await tuner.best(trials));
+      if (!best) break;
+      tuned[key] = best;
+      done += costOf(layer);
+      onProgress?.(done / total);
     }
     signal?.throwIfAborted();
     return tuned;
