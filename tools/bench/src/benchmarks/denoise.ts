@@ -4,6 +4,7 @@ import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
 import { flopOf, layersOf, randomArchive, type NetworkSize } from '../denoise/networks';
+import { OnnxRuntime } from '../denoise/onnx-runtime';
 import { measurePeak } from '../denoise/peak';
 import { VARIANTS, familyName } from '../denoise/variants';
 import { BenchError } from '../error';
@@ -82,13 +83,44 @@ class Subject {
   }
 
   /** Measures shapes. */
-  tune(network: NetworkSize, storage: DenoiserStorage): Promise<TunedShapes> {
-    return tuneShapes(this.#device, randomArchive(network), { storage, width: this.width, height: this.height });
+  async tune(network: NetworkSize, storage: DenoiserStorage): Promise<{ shapes: TunedShapes; measured: number }> {
+    const { width, height } = this;
+    let measured = 0;
+    const onProgress = (done: number) => void (measured = done);
+    const shapes = await tuneShapes(this.#device, randomArchive(network), { storage, width, height, onProgress });
+    return { shapes, measured };
   }
 
   destroy(): void {
     for (const buffer of Object.values(this.#buffers)) buffer.destroy();
   }
+}
+
+/** GPU milliseconds of an image by ONNX Runtime Web and by ours, alternating. */
+async function alternate(
+  subject: Subject,
+  onnx: OnnxRuntime,
+  network: NetworkSize,
+  storage: DenoiserStorage,
+  gpuTime: (work: () => Promise<void>) => Promise<number>,
+  { rounds, settle }: { readonly rounds: number; readonly settle: number },
+) {
+  const theirs: number[] = [];
+  const ours: number[] = [];
+  const width = 16 * Math.ceil(subject.width / 16);
+  const height = 16 * Math.ceil(subject.height / 16);
+  await subject.with(network, { storage }, (runOurs) =>
+    onnx.with(network, width, height, async (runTheirs) => {
+      // Compiles, and brings the GPU to its clock.
+      await warmUp(runTheirs, settle);
+      for (let i = 0; i < rounds; i++) {
+        const times = [await gpuTime(runTheirs), await gpuTime(runOurs)] as const;
+        theirs.push(times[0]);
+        ours.push(times[1]);
+      }
+    }),
+  );
+  return { theirs, ours };
 }
 
 /** GPU milliseconds of each kernel, run `repeats` times on end: the smallest of several runs. */
@@ -122,6 +154,10 @@ export const benchmark: Benchmark = {
     storage: { type: 'string', help: 'f16 (default) or f32' },
     variants: { type: 'string', help: '"no": only the usual kernels; or numbers of variants, 0,3,…' },
     tune: { type: 'string', help: '"yes": besides, with the shapes that tuneShapes finds within its default time' },
+    onnxruntime: {
+      type: 'string',
+      help: 'folder of the npm package onnxruntime-web: its WebGPU evaluates the same networks, alternating with ours',
+    },
     deadline: { type: 'string', help: 'seconds after which no further variant is tried; default 480' },
   },
   async run({ log, quick, gpu, values }) {
@@ -161,6 +197,9 @@ export const benchmark: Benchmark = {
     figures.push(timed('peak of f32 multiply-adds, measured', 'TFLOP/s', [peak / 1e12]));
     log(`peak ${(peak / 1e12).toFixed(1)} TFLOP/s`);
     const details: unknown[] = [];
+    const folder = values['onnxruntime'];
+    const onnx = folder === undefined ? undefined : await OnnxRuntime.load(folder, api, device);
+    if (onnx) notes.push(`ONNX Runtime Web ${onnx.version}: encoding and decoding are not in its times`);
 
     /** A whole image: GPU time, the mean of several in a row for each value, and wall time. */
     const whole = async (name: string, key: string, run: () => Promise<void>) => {
@@ -206,10 +245,36 @@ export const benchmark: Benchmark = {
           );
         }
       });
+      if (onnx) {
+        figures.push(
+          timed(`${network}: largest difference of ONNX Runtime's WebGPU from its CPU`, '1', [
+            await onnx.difference(network),
+          ]),
+        );
+        const { theirs, ours } = await alternate(subject, onnx, network, storage, gpuTime, {
+          rounds: small ? 1 : 20,
+          settle: small ? 0 : 1000,
+        });
+        figures.push(
+          timed(`${key}: ONNX Runtime Web, GPU time`, 'ms', theirs),
+          timed(`${key}: ours beside it, GPU time`, 'ms', ours),
+          timed(
+            `${key}: GPU time of ONNX Runtime Web over ours`,
+            '1',
+            theirs.map((ms, i) => ms / ours[i]!),
+            small ? undefined : { value: 3, relation: '>=', source: 'aim' },
+          ),
+        );
+        log(`${key}: ONNX Runtime Web ${theirs.map((ms) => ms.toFixed(2)).join(' ')} ms`);
+        log(`${key}: ours beside it ${ours.map((ms) => ms.toFixed(2)).join(' ')} ms`);
+      }
       if (values['tune'] === 'yes') {
         const before = performance.now();
-        const shapes = await subject.tune(network, storage);
-        figures.push(timed(`${key}: tuneShapes`, 'ms', [performance.now() - before]));
+        const { shapes, measured } = await subject.tune(network, storage);
+        figures.push(
+          timed(`${key}: tuneShapes`, 'ms', [performance.now() - before]),
+          timed(`${key}: tuneShapes, part of the work that was measured`, '%', [100 * measured]),
+        );
         details.push({ network, size, shapes });
         for (const [layer, family] of Object.entries(shapes)) log(`  ${layer}: ${familyName(family)}`);
         await subject.with(network, { storage, shapeOf: shapesFrom(shapes) }, (run) =>
@@ -258,6 +323,7 @@ export const benchmark: Benchmark = {
       subject.destroy();
     }
     gpuClock?.destroy();
+    onnx?.destroy();
     device.destroy();
     return {
       settings: { networks, sizes, storage, channels: 9, runs, repeats, variants: variants.map(familyName) },
