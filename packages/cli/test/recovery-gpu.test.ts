@@ -84,7 +84,7 @@ describe('the files are the same bit for bit', () => {
       '--samples',
       '1024',
       '--noise',
-      '0.006',
+      '0.01',
       '--max-depth',
       '3',
       '--bits',
@@ -140,7 +140,7 @@ describe('the files are the same bit for bit', () => {
       'iso',
       ...QUALITY,
       '--samples',
-      '200',
+      '64',
     ];
     const names = ['shoe-red-front.png', 'shoe-red-iso.png', 'shoe-green-front.png', 'shoe-green-iso.png'];
     const whole = folder();
@@ -166,7 +166,7 @@ describe('the files are the same bit for bit', () => {
   });
 
   it('when the GPU cannot be recovered, and a later run continues from --checkpoint', async () => {
-    const argv = ['red.glb', ...OUTPUTS, ...QUALITY, '--samples', '300'];
+    const argv = ['red.glb', ...OUTPUTS, ...QUALITY, '--samples', '96'];
     const whole = folder();
     expect((await glanz(argv, whole)).code).toBe(0);
     const cwd = folder();
