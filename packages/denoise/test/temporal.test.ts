@@ -1,6 +1,6 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { TemporalFilter, type FrameStep, type TemporalFilterOptions } from '../src/temporal/index';
+import { TemporalFilter, type FrameStep, type TemporalFilterOptions, type TemporalFrame } from '../src/temporal/index';
 import { numbersFrom } from './random-network';
 
 afterEach(() => expectNoGpuErrors());
@@ -21,6 +21,8 @@ interface Seen {
   readonly position: readonly [x: number, y: number, z: number];
   readonly normal: readonly [x: number, y: number, z: number];
   readonly virtualDepth: number;
+  /** Default 1. */
+  readonly roughness?: number;
   /** Pixels to where the surface was. */
   readonly motion: readonly [x: number, y: number];
 }
@@ -43,10 +45,12 @@ interface Shot {
   /** Standard deviation of the noise over the radiance. */
   readonly noise?: number;
   readonly instancesMoved?: boolean;
+  readonly eyes?: TemporalFrame['eyes'];
   /** In place of the noisy radiance. */
   readonly color?: (x: number, y: number) => number;
 }
 
+const bits = (value: number) => new Uint32Array(Float32Array.of(value).buffer)[0]!;
 const center = (i: number) => [i % WIDTH, Math.floor(i / WIDTH)] as const;
 
 /** Runs frames through a filter: the last image's red channel, and what the frames' films were. */
@@ -65,7 +69,7 @@ async function run(shots: readonly Shot[], options: TemporalFilterOptions = {}) 
   try {
     await filter.prepare(WIDTH, HEIGHT);
     let image = { buffer: undefined as unknown as GPUBuffer, width: WIDTH, height: HEIGHT };
-    for (const { scene, step, samples = 1, noise = 0, instancesMoved = false, color } of shots) {
+    for (const { scene, step, samples = 1, noise = 0, instancesMoved = false, eyes, color } of shots) {
       const seen = Array.from({ length: PIXELS }, (_, i) => scene(...center(i)));
       const film = Float32Array.from({ length: 4 * PIXELS }, (_, i) => {
         if (i % 4 === 3) return 0.25;
@@ -84,7 +88,8 @@ async function run(shots: readonly Shot[], options: TemporalFilterOptions = {}) 
         albedo: buffer(vectors(({ albedo }) => [albedo, albedo, albedo, 1])),
         normal: buffer(vectors(({ normal, position }) => [...normal, -position[2]])),
         position: buffer(vectors(({ position, virtualDepth }) => [...position, virtualDepth])),
-        ids: buffer(Uint32Array.from(seen.flatMap(({ instance }) => [instance, 0, 0, 0]))),
+        ids: buffer(Uint32Array.from(seen.flatMap(({ instance, roughness = 1 }) => [instance, 0, 0, bits(roughness)]))),
+        eyes,
         motion: buffer(vectors(({ motion }) => motion)),
       });
     }
@@ -240,6 +245,42 @@ describe('TemporalFilter', () => {
     ];
     expect(spread((await run(shots(mirror), MEAN_ALONE)).image, 0.5)).toBeLessThan(1e-6);
     expect(spread((await run(shots(wall), MEAN_ALONE)).image, 0.8)).toBeLessThan(1e-6);
+  });
+
+  it.each([
+    // The view turns by 0.1: half a share of change over the history allows 5 samples of α = 1/2, 1/2 sample of α = 1/11.
+    ['diffuse', 1, 16],
+    ['α 1/2', Math.SQRT1_2, 5],
+    ['α 1/11', Math.sqrt(1 / 11), 0.5],
+  ])('keeps as much of the history of reflections as the view has not changed: %s', async (_, roughness, kept) => {
+    const scene = () => ({ ...wall(0, 0), roughness });
+    const from = (x: number): readonly [number, number, number] => [x, 0, 0];
+    const shots: Shot[] = [
+      { scene, step: 'cuts', samples: 16, color: () => 1 },
+      { scene, step: 'moves', samples: 1, color: () => 0, eyes: [from(0), from(2 * Math.tan(2 * Math.asin(0.05)))] },
+    ];
+    const options = { ...MEAN_ALONE, maxHistory: 16 };
+    expect(spread((await run(shots, options)).image, kept / (kept + 1))).toBeLessThan(0.005);
+    // What is seen from the same place has not changed.
+    const still = [shots[0]!, { ...shots[1]!, eyes: undefined }];
+    expect(spread((await run(still, options)).image, 16 / 17)).toBeLessThan(1e-5);
+  });
+
+  it('leaves what smooth surfaces mirror, where it takes the noise of rough ones', async () => {
+    // A surface that bends: normals turn by 0.02 from pixel to pixel, mirrored directions by twice as much.
+    const bent = (roughness: number) => (x: number, y: number) => {
+      const angle = 0.02 * (x - WIDTH / 2);
+      return { ...wall(x, y), roughness, normal: [Math.sin(angle), 0, Math.cos(angle)] as const };
+    };
+    // Stripes of what is mirrored; in a first frame nothing else tells them from noise.
+    const stripes = (x: number) => (x % 4 < 2 ? 0.2 : 0.8);
+    const contrast = async (roughness: number) => {
+      const shot: Shot = { scene: bent(roughness), step: 'cuts', color: stripes };
+      const { image } = await run([shot], { antialias: false });
+      return spread(image, 0.5) / 0.3;
+    };
+    expect(await contrast(1)).toBeLessThan(0.4);
+    expect(await contrast(0.15)).toBeGreaterThan(0.99);
   });
 
   it('takes noise from surfaces and leaves their edges and textures', async () => {

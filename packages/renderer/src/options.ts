@@ -179,11 +179,23 @@ export type BackFaceCulling = 'off' | 'camera' | 'all';
  *
  * Of the first surface of the sample nearest to the pixel's centre:
  * - `objectId`, `materialId`: u32: index in `Scene.instances` and in `Scene.materials`; 0xffffffff for none.
+ * - `roughness`: 1 number, 0..1: how narrowly it scatters: √α of its microfacets, where α is the harmonic mean over its
+ *   lobes by how often each is sampled, and 1 for what scatters widely (diffuse, subsurface, fuzz, volumes). A mirror has
+ *   0, Lambert's surface 1; 0 where there is no surface.
  * - `motion`: XY: pixels, to the right and down, from where the surface is in the image to where it was in the frame
  *   before, see {@link HistoryFrame}; 0 where there is no surface or no such frame. Through the middle of the lens.
  */
 export type AovName =
-  'albedo' | 'normal' | 'virtualDepth' | 'coverage' | 'depth' | 'position' | 'objectId' | 'materialId' | 'motion';
+  | 'albedo'
+  | 'normal'
+  | 'virtualDepth'
+  | 'coverage'
+  | 'depth'
+  | 'position'
+  | 'objectId'
+  | 'materialId'
+  | 'roughness'
+  | 'motion';
 
 /**
  * The frame that a film showed before it began again, where the same surfaces can be found in it: after another camera

@@ -269,7 +269,7 @@ export class PathTracer extends TracerEdits {
    * - `albedo`: Float32Array, RGBA: albedo and coverage.
    * - `normal`: Float32Array, stride 4: normal and 0.
    * - `position`: Float32Array, stride 4: position and coverage.
-   * - `coverage`, `depth`, `virtualDepth`: Float32Array, stride 1.
+   * - `coverage`, `depth`, `virtualDepth`, `roughness`: Float32Array, stride 1.
    * - `objectId`, `materialId`: Uint32Array, stride 1.
    * - `motion`: Float32Array, stride 2.
    *

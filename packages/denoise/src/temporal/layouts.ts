@@ -11,8 +11,11 @@ export const temporalFrameStruct = struct('TemporalFrame', {
   clamp_sigmas: 'f32',
   /** The share of the filtered image, 0 to 1. */
   share: 'f32',
+  /** Where the frame is seen from, and the one before. */
+  eye: 'vec3f',
   /** 1 where instances have moved since the frame before. */
   moved: 'u32',
+  eye_before: 'vec3f',
   /** Pixels between the taps of the spatial filter. */
   step: 'u32',
 });

@@ -51,14 +51,23 @@ export interface TemporalFrame {
   readonly normal: GPUBuffer;
   /** Positions of the first surface, and metres along the path to what is seen; four floats a pixel. */
   readonly position: GPUBuffer;
-  /** Number of the instance first of four whole numbers a pixel. */
+  /** Number of the instance, two words that are not read, and roughness 0 to 1 as a float; four words a pixel. */
   readonly ids: GPUBuffer;
   /** Pixels from where the surface is to where it was in the frame before, x to the right, y down; two floats a pixel. */
   readonly motion: GPUBuffer;
   readonly step: FrameStep;
+  /**
+   * With `moves`: where the frame is seen from, and where the one before was, in the space of `position`. What narrow
+   * lobes reflect changes with the view: the more it turns, and the smoother a surface is, the shorter is its history.
+   * Default: as if surfaces looked the same from everywhere.
+   */
+  readonly eyes?: readonly [now: Point, before: Point] | undefined;
   /** With `moves`: whether instances have moved, not the camera alone. Default false. */
   readonly instancesMoved?: boolean | undefined;
 }
+
+/** X, Y and Z. */
+export type Point = readonly [x: number, y: number, z: number];
 
 /** What {@link TemporalFilter.filter} has made. */
 export interface FilteredImage {
@@ -76,13 +85,31 @@ export interface FilterableTracer {
   readonly width: number;
   readonly height: number;
   readonly samples: number;
+  readonly camera: FilterableCamera;
+  readonly history: { readonly camera: FilterableCamera } | undefined;
   readonly beautyBuffer: GPUBuffer;
   readonly aovs: readonly string[];
   aov(name: TemporalAov): { readonly buffer: GPUBuffer };
 }
 
+/** The part of a camera of `@glanz/scene` that {@link TemporalFilter.filterTracer} needs. */
+export interface FilterableCamera {
+  readonly type: string;
+  /** Column-major 4 × 4; it looks along −Z. */
+  readonly transform: ArrayLike<number>;
+}
+
 /** First-hit AOVs that the filter reads. */
-export const TEMPORAL_AOVS = ['albedo', 'normal', 'depth', 'position', 'virtualDepth', 'objectId', 'motion'] as const;
+export const TEMPORAL_AOVS = [
+  'albedo',
+  'normal',
+  'depth',
+  'position',
+  'virtualDepth',
+  'objectId',
+  'roughness',
+  'motion',
+] as const;
 
 /** See {@link TEMPORAL_AOVS}. */
 export type TemporalAov = (typeof TEMPORAL_AOVS)[number];

@@ -7,7 +7,9 @@ import {
   TEMPORAL_AOVS,
   type FilterableTracer,
   type FilteredImage,
+  type FilterableCamera,
   type FrameStep,
+  type Point,
   type TemporalFilterOptions,
   type TemporalFrame,
 } from './options';
@@ -39,6 +41,18 @@ interface Buffers {
   /** The present frame and the one before; they change places. */
   pasts: readonly [now: Past, before: Past];
   readonly all: readonly GPUBuffer[];
+}
+
+const NOWHERE: readonly [Point, Point] = [
+  [0, 0, 0],
+  [0, 0, 0],
+];
+/** How far away an orthographic camera's eye is. */
+const FAR = 1e6;
+
+function eyeOf({ type, transform: m }: FilterableCamera): Point {
+  const back = type === 'orthographic' ? FAR : 0;
+  return [12, 13, 14].map((i) => m[i]! + back * m[i - 4]!) as unknown as Point;
 }
 
 function checkOptions({ maxHistory, clampSigmas, passes, settledSamples }: Required<Settings>): void {
@@ -279,6 +293,7 @@ export class TemporalFilter {
       motion: buffer('motion'),
       step,
       instancesMoved,
+      eyes: tracer.history && [eyeOf(tracer.camera), eyeOf(tracer.history.camera)],
     });
   }
 
@@ -326,7 +341,10 @@ export class TemporalFilter {
   }
 
   /** Writes the uniforms of all passes. @returns The share of the filtered image. */
-  #write({ uniforms, width, height }: Buffers, { samples, instancesMoved = false }: TemporalFrame): number {
+  #write(
+    { uniforms, width, height }: Buffers,
+    { samples, instancesMoved = false, eyes = NOWHERE }: TemporalFrame,
+  ): number {
     const { maxHistory, clampSigmas, settledSamples } = this.#settings;
     // Noise falls with the root of the samples: each doubling of them brings the film as much nearer.
     const settled = Math.log(samples / NOISY_SAMPLES) / Math.log(settledSamples / NOISY_SAMPLES);
@@ -340,7 +358,9 @@ export class TemporalFilter {
         max_history: maxHistory,
         clamp_sigmas: Math.min(clampSigmas, 1e15),
         share,
+        eye: eyes[0],
         moved: instancesMoved ? 1 : 0,
+        eye_before: eyes[1],
         step: 2 ** pass,
       });
       data.set(new Uint8Array(bytes), pass * ALIGNMENT);

@@ -34,6 +34,7 @@ export const AOV_PLACES: Readonly<Record<AovName, AovPlace>> = {
   virtualDepth: place('aov_position', 3, 1),
   objectId: place('aov_ids', 0, 1, 'uint32'),
   materialId: place('aov_ids', 1, 1, 'uint32'),
+  roughness: place('aov_ids', 3, 1),
   motion: { buffer: 'aov_motion', format: 'float32', stride: 2, offset: 0, channels: 2 },
 };
 

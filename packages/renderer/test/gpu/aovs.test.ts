@@ -1,5 +1,5 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
-import type { Scene } from '@glanz/scene';
+import type { Material, Scene } from '@glanz/scene';
 import { afterEach, beforeAll, expect, it } from 'vitest';
 import { PathTracer, type AovName, type PathTracerOptions } from '../../src/index';
 import { readAov } from '../aovs';
@@ -139,6 +139,45 @@ it('takes ids from the sample nearest to the centre of a pixel', async () => {
   expect(last).toBeLessThan(0.5 * first);
   few.destroy();
   many.destroy();
+});
+
+it('tells how narrowly surfaces scatter: a metal as its roughness says, Lambert 1, what reflects a little in between', async () => {
+  const metal = (roughness: number): Material => ({
+    name: `metal ${roughness}`,
+    parameters: { base_metalness: 1, base_color: [1, 1, 1], specular_roughness: roughness },
+  });
+  const dielectric: Material = { name: 'dielectric', parameters: { specular_roughness: 0.3 } };
+  const coated: Material = {
+    name: 'coated',
+    parameters: { specular_weight: 0, coat_weight: 1, coat_roughness: 0.2 },
+  };
+  const of = async (material: Material) => {
+    const scene = createScene();
+    addQuad(scene, 0.3, 0, material);
+    const tracer = await render(scene, 4, { aovs: ['roughness', 'objectId'], background: 'transparent' });
+    const [roughness, ids] = [await tracer.read('roughness'), await tracer.read('objectId')];
+    tracer.destroy();
+    ids.forEach((id, i) => id === 0xffffffff && expect(roughness[i]).toBe(0));
+    const centre = (SIZE / 2) * SIZE + SIZE / 2;
+    expect(ids[centre]).toBe(0);
+    return roughness[centre] as number;
+  };
+  // What rough facets scatter more than once leaves them widely.
+  for (const [roughness, slack] of [
+    [0.1, 0.001],
+    [0.3, 0.01],
+    [0.8, 0.1],
+  ] as const) {
+    const found = await of(metal(roughness));
+    expect(found).toBeGreaterThan(0.999 * roughness);
+    expect(found).toBeLessThan((1 + slack) * roughness);
+  }
+  expect(await of(lambert(0.5))).toBe(1);
+  for (const material of [dielectric, coated]) {
+    const roughness = await of(material);
+    expect(roughness).toBeGreaterThan(0.3);
+    expect(roughness).toBeLessThan(0.9);
+  }
 });
 
 it('costs no sample of the image, and comes later for samples that were taken without', async () => {

@@ -16,7 +16,18 @@ const ALLOWED = 3;
 const REQUESTS = {
   none: [],
   guides: ['albedo', 'normal'],
-  all: ['albedo', 'normal', 'virtualDepth', 'coverage', 'depth', 'position', 'objectId', 'materialId', 'motion'],
+  all: [
+    'albedo',
+    'normal',
+    'virtualDepth',
+    'coverage',
+    'depth',
+    'position',
+    'objectId',
+    'materialId',
+    'roughness',
+    'motion',
+  ],
 } as const satisfies Readonly<Record<string, readonly AovName[]>>;
 
 type Request = keyof typeof REQUESTS;

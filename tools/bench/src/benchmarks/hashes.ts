@@ -41,6 +41,7 @@ const LAYER_CHANNELS = {
   motion: 2,
   virtualDepth: 1,
   materialId: 1,
+  roughness: 1,
 } as const;
 
 /** Renders one case and gives the hashes of its layers. */

@@ -100,6 +100,8 @@ export const benchmark: Benchmark = {
         for (let frame = 0; frame <= last; frame++) {
           const started = performance.now();
           await tracer.setCamera(viewAt(product.camera, scene, frame));
+          // Other random numbers than those of the frame before, or its noise would never average out.
+          tracer.reset({ firstSample: frame });
           await add(tracer, 1);
           const image = filter?.filterTracer(tracer, frame === 0 ? 'cuts' : 'moves');
           await device.queue.onSubmittedWorkDone();

@@ -384,6 +384,7 @@ const AOVS = [
   'position',
   'objectId',
   'materialId',
+  'roughness',
   'motion',
 ] as const;
 
@@ -413,7 +414,7 @@ const LAYERS: readonly HashCase[] = [
     transmission_weight: 1,
     specular_roughness: 0,
   }),
-  layersAlone('ids, through a thin wall', ['objectId', 'materialId'], {
+  layersAlone('ids, through a thin wall', ['objectId', 'materialId', 'roughness'], {
     transmission_weight: 1,
     geometry_thin_walled: true,
     specular_roughness: 0,
