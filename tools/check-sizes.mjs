@@ -28,13 +28,13 @@ const BUDGETS = [
   { specifier: '@glanz/renderer', limit: 112.5, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
   // 14 before it kept samples through the loss of a GPU and checked all that it is given.
-  { specifier: '@glanz/viewer', limit: 18 },
+  { specifier: '@glanz/viewer', limit: 19 },
   { specifier: '@glanz/element', limit: 10 },
   { specifier: '@glanz/react', limit: 1.5 },
 ];
 
 /** Files that pages take as they are: kB, gzipped. */
-const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 219 }];
+const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 227 }];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 

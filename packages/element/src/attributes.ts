@@ -160,6 +160,13 @@ export const ATTRIBUTES = {
    * denoised while they have few samples.
    */
   denoise: 'text',
+  /**
+   * What is shown while the view moves: the film's samples as they are (`raw`), filtered over time (`filtered`), or the
+   * latter unless the adapter is software (`auto`).
+   * @values auto, raw, filtered
+   * @defaultValue auto
+   */
+  preview: 'text',
 } as const satisfies Readonly<Record<string, AttributeKind>>;
 
 /** Name of an attribute of the element. */

@@ -312,6 +312,8 @@ function makeClass(): GlanzViewerConstructor {
       viewer.noise = this.#number('noise');
       viewer.maxDepth = this.#number('max-depth') ?? RENDER_OPTIONS.maxDepth.default;
       viewer.pixelRatio = this.#number('pixel-ratio');
+      const preview = this.getAttribute('preview') ?? '';
+      viewer.previewMode = preview === 'raw' || preview === 'filtered' ? preview : 'auto';
       const factor = this.#number('exposure');
       if (factor !== undefined) warnOfExposure();
       viewer.exposure = this.#number('exposure-ev') ?? Math.log2(Math.max(1e-6, factor ?? 1));

@@ -49,6 +49,7 @@ const WORDS: Readonly<Record<Single<AttributeName>, true>> = {
   samples: true,
   noise: true,
   denoise: true,
+  preview: true,
 };
 
 /**

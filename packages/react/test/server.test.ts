@@ -20,6 +20,7 @@ describe('on a server', () => {
           dracoDecoder: '/draco.js',
           ktx2Transcoder: '/basis.js',
           denoise: '/denoise.js',
+          preview: 'raw',
           className: 'hero',
           style: { height: 400 },
           onLoad: () => undefined,
@@ -39,6 +40,7 @@ describe('on a server', () => {
       'draco-decoder="/draco.js"',
       'ktx2-transcoder="/basis.js"',
       'denoise="/denoise.js"',
+      'preview="raw"',
       'class="hero"',
       'style="height:400px"',
     ])

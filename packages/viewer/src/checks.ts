@@ -9,8 +9,9 @@ import {
 import { cross, dot } from 'gl-matrix/esm/vec3.js';
 import type { Camera, Scene } from '@glanz/scene';
 import type { Engine } from './engine';
+import { previewOptions } from './engine-settings';
 import { destroyed, ViewerError } from './errors';
-import type { ViewerOptions } from './options';
+import type { PreviewMode, ViewerOptions } from './options';
 import { column, type Orbit, type OrbitLimits, type Vector } from './orbit-state';
 
 /** Metres: beyond, single precision, in which the GPU computes, has no digits left for a model. */
@@ -34,6 +35,8 @@ const RANGES = {
   'preview.budgetMs': [0.1, 10_000],
   'preview.settleMs': [0, 1e6],
 } as const;
+
+const MODES: readonly PreviewMode[] = ['auto', 'raw', 'filtered'];
 
 /** Settings that are whole numbers. */
 const WHOLE: ReadonlySet<string> = new Set(['maxPixels', 'width', 'height']);
@@ -79,6 +82,12 @@ export function checkedOption<Name extends RenderOptionName>(
   return value as NonNullable<RenderSettings[Name]>;
 }
 
+/** @throws {ViewerError} `viewer/option` */
+export function checkedMode(mode: unknown): PreviewMode {
+  if (!MODES.includes(mode as PreviewMode)) throw wrong('preview', mode, MODES.join(', '), 'viewer/option');
+  return mode as PreviewMode;
+}
+
 /**
  * Checks all settings that are given; those of the preview lie in an object of their own.
  * @throws {ViewerError} `viewer/option`; `viewer/camera` for the limits of the orbit.
@@ -92,14 +101,13 @@ export function checkSettings(options: ViewerOptions): void {
   const { denoise } = options;
   if (denoise !== undefined && typeof denoise !== 'function')
     throw wrong('denoise', denoise, 'made by denoising()', 'viewer/option');
-  const depth = options.preview?.maxDepth;
+  const preview = previewOptions(options);
+  if (preview.mode !== undefined) checkedMode(preview.mode);
+  const depth = preview.maxDepth;
   if (depth !== undefined) checkedOption('maxDepth', depth, 'preview.maxDepth');
   for (const name of Object.keys(RANGES) as (keyof typeof RANGES)[]) {
     const [group, inner] = name.split('.') as [keyof ViewerOptions, string?];
-    const value =
-      inner === undefined
-        ? options[group]
-        : (options.preview as Readonly<Record<string, unknown>> | undefined)?.[inner];
+    const value = inner === undefined ? options[group] : (preview as Readonly<Record<string, unknown>>)[inner];
     if (value !== undefined) checkedSetting(name, value);
   }
 }

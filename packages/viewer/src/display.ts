@@ -94,7 +94,7 @@ export class Display {
     return this.#pass.settings.toneMap;
   }
 
-  /** Samples of the preview that is kept, 0 without one. */
+  /** Samples of the preview that is kept, infinity of one filtered over time, 0 without one. */
   get kept(): number {
     return this.#small?.samples ?? 0;
   }
@@ -103,6 +103,7 @@ export class Display {
    * Keeps a copy of a preview, to be mixed into the images that follow. Where there is no memory for it, they appear
    * without the transition.
    *
+   * @param samples Infinity: it is filtered over time.
    * @param fullSize Of the images that follow.
    */
   async keep({ buffer, size }: GpuImage, samples: number, fullSize: readonly [number, number]): Promise<void> {
@@ -182,7 +183,7 @@ export class Display {
     this.#device.queue.writeBuffer(
       this.#uniforms,
       0,
-      new Float32Array([width, height, ...small.size, weight, 0, 0, 0]),
+      new Float32Array([width, height, ...small.size, weight, small.samples === Infinity ? 1 : 0, 0, 0]),
     );
     const buffers = [this.#uniforms, film.buffer, small.buffer, mixed];
     const group = this.#device.createBindGroup({

@@ -3,6 +3,7 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import type { DenoiseSession } from './denoise-session';
 import type { ViewerState } from './events';
+import type { PreviewMode } from './options';
 
 /** What an `Engine` requests from its application, and reports to it. */
 export interface EngineHost {
@@ -19,7 +20,7 @@ export interface EngineHost {
   readonly converged: (samples: number, milliseconds: number) => void;
   /**
    * An image has gone to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels,
-   * denoised or not.
+   * denoised (or filtered over time) or not.
    */
   readonly drawn: (preview: boolean, milliseconds: number, size: readonly [number, number], denoised: boolean) => void;
   /** The film was cleared: what it shows from now on is another image. */
@@ -60,6 +61,8 @@ export interface EngineSettings extends ToneMapOptions {
   readonly settleMs: number;
   /** Maximum number of edges of a path in previews that are smaller than the image. */
   readonly previewDepth: number;
+  /** Default `auto`. May change at any time. */
+  previewMode?: PreviewMode | undefined;
   /** More options for the path tracers; those of a {@link TracerSpec} take precedence. */
   readonly tracer: Partial<PathTracerOptions>;
   /** Default: `requestDevice()` of the renderer. */

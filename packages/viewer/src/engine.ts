@@ -57,6 +57,7 @@ export class Engine {
       blocked: () => this.#blocked(),
       isCurrent: (tracer) => this.#current(tracer),
       failed: (error) => this.#fail(error),
+      device: () => this.#tracerDevice,
     });
     const { exposure = 0, toneMap = 'neutral' } = settings;
     this.#connection = new Connection(

@@ -86,8 +86,11 @@ export interface ViewerOptions {
   readonly autoRotate?: number;
   /** Seconds after the last other movement before it does. Default 3. Changeable. */
   readonly autoRotateDelay?: number;
-  /** How the preview of a moving view is made. */
-  readonly preview?: PreviewOptions;
+  /**
+   * How the preview of a moving view is made; a mode stands for options of that mode alone. Default `auto`. The mode is
+   * changeable by `previewMode`.
+   */
+  readonly preview?: PreviewMode | PreviewOptions;
   /** GPU milliseconds that one submission should take at most while the image is refined. Default 16. */
   readonly maxSubmitMs?: number;
   /** Decoders of compressed meshes and images; meshopt is there by itself. */
@@ -127,8 +130,22 @@ export interface LoadOptions {
   readonly variant?: string;
 }
 
+/**
+ * What is shown while something moves.
+ *
+ * - `raw`: the film's samples as they are, in as many pixels as keep the frame rate.
+ * - `filtered`: the same with the frames before it, reprojected, and filtered in space: nearly without noise, and
+ *   reflections lag a little. When the view rests, the film begins with its own samples, as if nothing had moved, and
+ *   takes over as its noise falls.
+ * - `auto`: `filtered`, but `raw` on software adapters. Until the filter is loaded and compiled, with the first movement,
+ *   and where there is no memory for it (300 bytes a pixel), frames are raw.
+ */
+export type PreviewMode = 'auto' | 'raw' | 'filtered';
+
 /** See {@link ViewerOptions.preview}. */
 export interface PreviewOptions {
+  /** Default `auto`. */
+  readonly mode?: PreviewMode;
   /** Milliseconds that a frame of it may take. Default 12, which leaves room at 60 frames a second. */
   readonly budgetMs?: number;
   /** Maximum number of edges of a path, where the preview is smaller than the image. Default 4. */

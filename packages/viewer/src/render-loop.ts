@@ -8,6 +8,7 @@ import type { ViewerState } from './events';
 import { FilmFit, sameSize, scaledSize } from './film-fit';
 import { FilmKeeper } from './film-keeper';
 import { PreviewController } from './preview';
+import { PreviewReuse } from './preview-reuse';
 import { nextFrame, soon, Visibility } from './visibility';
 
 /** Samples after which a preview that stands still is as good as it can be. */
@@ -29,6 +30,8 @@ export interface LoopEngine {
   /** Whether a tracer is the one that is shown, on a device that is not lost. */
   readonly isCurrent: (tracer: PathTracer | undefined) => boolean;
   readonly failed: (error: unknown) => void;
+  /** The device of the tracer. */
+  readonly device: () => GPUDevice | undefined;
 }
 
 const sizeOf = (tracer: PathTracer): Size => [tracer.width, tracer.height];
@@ -49,6 +52,7 @@ export class RenderLoop {
   readonly #visibility: Visibility;
   readonly #keeper = new FilmKeeper();
   readonly #preview: PreviewController;
+  readonly #reuse: PreviewReuse;
   #tracer: PathTracer | undefined;
   #state: ViewerState = 'empty';
   #film: Size = [1, 1];
@@ -82,6 +86,7 @@ export class RenderLoop {
     this.#host = host;
     this.#engine = engine;
     this.#preview = new PreviewController(budgetMs);
+    this.#reuse = new PreviewReuse(() => settings.previewMode ?? 'auto', engine.device);
     this.#visibility = new Visibility(canvas, () => this.stir());
   }
 
@@ -107,7 +112,12 @@ export class RenderLoop {
 
   /** See `Engine.current`. */
   get current(): boolean {
-    return this.#fresh && !this.#moving && !!this.#tracer && sameSize(sizeOf(this.#tracer), this.imageSize);
+    return this.#fresh && !this.#moving && this.#whole;
+  }
+
+  /** Whether the film is one of the image in full. */
+  get #whole(): boolean {
+    return !!this.#tracer && !this.#reuse.shifted && sameSize(sizeOf(this.#tracer), this.imageSize);
   }
 
   /** Pixels of the image in full, as far as the GPU has memory for them. */
@@ -151,6 +161,7 @@ export class RenderLoop {
   show(tracer: PathTracer, restored: boolean): void {
     // Code that reads the canvas's size before the first image is drawn gets its final size.
     if (!this.#tracer) this.#engine.display()?.resize(this.#canvasSize);
+    this.#reuse.drop();
     this.#tracer?.destroy();
     this.#tracer = tracer;
     if (restored) {
@@ -175,6 +186,7 @@ export class RenderLoop {
 
   /** The device is gone, and the film with it. */
   lose(): void {
+    this.#reuse.drop();
     this.#fresh = false;
     this.state = 'recovering';
     this.stir();
@@ -236,6 +248,7 @@ export class RenderLoop {
     this.edits.clear(abortError());
     cancelAnimationFrame(this.#frame);
     this.#visibility.destroy();
+    this.#reuse.drop();
     this.#tracer?.destroy();
     this.#tracer = undefined;
   }
@@ -287,8 +300,11 @@ export class RenderLoop {
     this.#lastStep = now;
     const full = this.imageSize;
     const plan = this.#preview.plan(full[0] * full[1]);
-    const changed = stepped || this.#dirtyCamera || this.edits.size > 0;
-    if (stepped || this.#dirtyCamera) {
+    const turned = stepped || this.#dirtyCamera;
+    const edited = this.edits.size > 0;
+    const changed = turned || edited;
+    if (changed) this.#reuse.shift(tracer);
+    if (turned) {
       // What stands still keeps its size: samples gather.
       const depth = plan.divisor > 1 ? Math.min(previewDepth, maxDepth) : maxDepth;
       await this.#fit(tracer, full, depth, 1 / plan.divisor);
@@ -303,7 +319,7 @@ export class RenderLoop {
     if (changed) this.#restarted();
     const before = tracer.samples;
     // In its full size it is the image already, and that gets the requested samples.
-    const max = sameSize(sizeOf(tracer), this.imageSize) ? this.#goal : Infinity;
+    const max = this.#whole ? this.#goal : Infinity;
     if (before >= Math.min(PREVIEW_SAMPLES, max) && this.#fresh) return;
     const started = performance.now();
     let samples = before;
@@ -319,7 +335,8 @@ export class RenderLoop {
     const milliseconds = performance.now() - started;
     if (samples > before) this.#preview.measured(tracer.width * tracer.height, samples - before, milliseconds);
     this.#fresh = true;
-    this.#draw(milliseconds);
+    await this.#reuse.filter(tracer, changed, !turned, edited);
+    if (tracer === this.#tracer) this.#draw(milliseconds);
   }
 
   /** The image in full, until it is done or something moves. */
@@ -327,8 +344,14 @@ export class RenderLoop {
     const { samples, noise, maxSubmitMs, maxDepth, keepSamples } = this.#settings;
     this.state = 'rendering';
     const full = this.imageSize;
-    if (this.#fresh && !sameSize(sizeOf(tracer), full))
-      void this.#engine.display()?.keep(imageOf(tracer), tracer.samples, full);
+    const { image } = this.#reuse;
+    if (this.#fresh && (image || !sameSize(sizeOf(tracer), full)))
+      void this.#engine.display()?.keep(image ?? imageOf(tracer), image ? Infinity : tracer.samples, full);
+    this.#reuse.forget();
+    if (this.#reuse.shifted) {
+      this.#reuse.rest(tracer);
+      this.#fresh = false;
+    }
     if (await this.#fit(tracer, full, maxDepth)) this.#fresh = false;
     // Another size may be wanted by now, or is all that there is memory for.
     if (tracer !== this.#tracer || this.#moving || !sameSize(sizeOf(tracer), this.imageSize)) return;
@@ -355,6 +378,7 @@ export class RenderLoop {
     this.#done = true;
     if (keepSamples !== false) this.#keeper.offer(tracer, true);
     this.#engine.display()?.forget();
+    this.#reuse.release();
     this.redraw();
     this.#host.converged(tracer.samples, performance.now() - this.#changed);
   }
@@ -412,6 +436,7 @@ export class RenderLoop {
     this.#keeper.clear();
     this.#changed = performance.now();
     this.#engine.display()?.forget();
+    this.#reuse.forget();
     this.#settings.denoise?.forget();
     this.#host.restarted?.();
   }
@@ -421,11 +446,11 @@ export class RenderLoop {
     const display = this.#engine.display();
     if (!tracer || !display || !this.#fresh) return;
     const denoised = this.#settings.denoise?.image(tracer);
-    const image = denoised ?? imageOf(tracer);
+    const image = denoised ?? this.#reuse.image ?? imageOf(tracer);
     if (denoised || !sameSize(image.size, this.imageSize)) display.forget();
     const weight = display.kept > 0 ? previewWeight(tracer.samples, display.kept, this.#settings.samples) : 0;
     if (weight === 0 && display.kept > 0) display.forget();
     display.draw(image, this.#canvasSize, weight);
-    this.#host.drawn(this.#state === 'moving', milliseconds, image.size, !!denoised);
+    this.#host.drawn(this.#state === 'moving', milliseconds, image.size, !!(denoised ?? this.#reuse.image));
   }
 }

@@ -1,19 +1,19 @@
 import type { PathTracer, PickResult } from '@glanz/renderer';
 import type { Camera, Scene } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
-import { checkAlive, checkedOption, checkedSetting, checkSettings, sceneOf } from './checks';
+import { checkAlive, checkedMode, checkedOption, checkedSetting, checkSettings, sceneOf } from './checks';
 import type { ControlOptions } from './controls';
 import { isAbort } from './aborts';
 import type { Denoising } from './denoise-session';
 import { Emitter, type ListenOptions } from './emitter';
 import { Engine } from './engine';
-import { engineSettings } from './engine-settings';
+import { engineSettings, previewOptions } from './engine-settings';
 import { ViewerError } from './errors';
 import type { ViewerEvents, ViewerState } from './events';
 import { imageSize } from './image-size';
 import type { EnvironmentSource, ModelSource } from './load';
 import type { MaterialEdit } from './material-colors';
-import type { BlobOptions, LoadOptions, ViewerOptions } from './options';
+import type { BlobOptions, LoadOptions, PreviewMode, ViewerOptions } from './options';
 import type { Orbit, OrbitLimits, Vector } from './orbit-state';
 import { project, type Projection } from './project';
 import { ViewerCamera } from './viewer-camera';
@@ -56,7 +56,7 @@ export class Viewer {
     this.#maxPixels = options.maxPixels;
     this.#pixelRatio = options.pixelRatio;
     const events = this.#events;
-    const engine = (this.#engine = new Engine(canvas, engineSettings(options), options.preview?.budgetMs ?? 12, {
+    const engine = (this.#engine = new Engine(canvas, engineSettings(options), previewOptions(options).budgetMs ?? 12, {
       ...engineReports(events),
       step: (seconds) => this.#camera.step(seconds),
       moving: () => this.#camera.moving,
@@ -268,6 +268,15 @@ export class Viewer {
   set toneMap(toneMap: ToneMap) {
     checkToneMapOptions({ toneMap });
     if (toneMap !== this.toneMap) this.#inBackground(this.#engine.setView({ toneMap }));
+  }
+
+  /** What is shown while something moves, see {@link PreviewMode}. */
+  get previewMode(): PreviewMode {
+    return this.#engine.settings.previewMode ?? 'auto';
+  }
+
+  set previewMode(mode: PreviewMode) {
+    this.#engine.settings.previewMode = checkedMode(mode);
   }
 
   /** See {@link ViewerOptions.denoise}. */

@@ -74,12 +74,13 @@ type Settings = Omit<TemporalFilterOptions, 'signal'>;
  * `settledSamples` on.
  *
  * - Reprojection: each pixel's history is fetched from where its surface was, as the motion AOV tells, bilinearly from
- *   pixels that showed the same instance on the same plane with a like normal. What was hidden has none. What is seen in
- *   mirrors or through clear glass moves otherwise than its first surface: its history counts for 4 samples at most.
+ *   pixels that showed the same instance on the same plane with a like normal. What was hidden has none. The history of
+ *   reflections is the shorter, the more the view has turned and the smoother the surface is; what is seen in mirrors or
+ *   through clear glass moves otherwise than its first surface: its history counts for 4 samples at most.
  * - Illumination, the image over its albedo, is averaged with the history by their numbers of samples. The history is
  *   kept within the spread of the pixel's present neighbours, and counts for less where their mean has changed by more
  *   than its noise.
- * - Edges are smoothed by the image that was shown before, within the colours around each pixel.
+ * - Edges of surfaces are smoothed by the image that was shown before, within the colours around each pixel.
  * - A spatial filter by the variance of that (Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering") takes the
  *   noise that is left; where illumination has none, it changes nothing.
  *
@@ -147,7 +148,7 @@ export class TemporalFilter {
     this.#expectAlive();
     checkSize(width, height);
     if (this.#buffers?.width === width && this.#buffers.height === height) return;
-    this.#release();
+    this.release();
     const image = (name: string, usage = 0, bytes = 16 * width * height) => ({
       label: `temporal ${name}`,
       size: bytes,
@@ -307,21 +308,22 @@ export class TemporalFilter {
     return readImage(this.#device, image);
   }
 
+  /** Frees the memory for images, and forgets the frames before; {@link prepare} makes it again. */
+  release(): void {
+    for (const buffer of this.#buffers?.all ?? []) buffer.destroy();
+    this.#buffers = undefined;
+    this.#known = this.#follows = false;
+  }
+
   /** Frees everything on the GPU. */
   destroy(): void {
     this.#destroyed = true;
-    this.#release();
+    this.release();
   }
 
   #expectAlive(): void {
     if (this.#destroyed)
       throw new DenoiseError('denoise/destroyed', 'This TemporalFilter was destroyed: create another one.');
-  }
-
-  #release(): void {
-    for (const buffer of this.#buffers?.all ?? []) buffer.destroy();
-    this.#buffers = undefined;
-    this.#known = this.#follows = false;
   }
 
   #check(frame: TemporalFrame): void {
