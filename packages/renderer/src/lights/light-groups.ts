@@ -51,7 +51,7 @@ export function lightGroupTable(scene: Scene, mode: LightGroupMode): LightGroupT
   if (names.length > MAX_LIGHT_GROUPS) {
     throw new RenderError(
       'renderer/light-groups',
-      `The scene has ${names.length} light groups; at most ${MAX_LIGHT_GROUPS} can be kept apart: let some share one.`,
+      `There are ${names.length} light groups; at most ${MAX_LIGHT_GROUPS} can be kept apart.`,
     );
   }
   const index = (name: string) => Math.max(names.indexOf(name), 0);
