@@ -67,7 +67,7 @@ export function checkInteriors({ materials }: Scene): void {
   if (last >= MAX_INTERIORS)
     throw new DeviceError(
       'renderer/limit',
-      `Material ${last} ("${materials[last]?.name}") has an interior; only the first ${MAX_INTERIORS} materials may: move it up, or set geometry_thin_walled.`,
+      `Material ${last} ("${materials[last]?.name}") has an interior; only the first ${MAX_INTERIORS} may: move it up, or set geometry_thin_walled.`,
     );
 }
 

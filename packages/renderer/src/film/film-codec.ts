@@ -9,10 +9,7 @@ const VERSION = 3;
 const HEADER_BYTES = 16;
 
 const broken = (what: string) =>
-  new RenderError(
-    'renderer/film-state',
-    `These bytes are no film that can be resumed: ${what}. Render the film again from the start.`,
-  );
+  new RenderError('renderer/film-state', `These bytes are no film that can be resumed: ${what}. Render it again.`);
 
 type Head = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
   readonly parts: readonly number[];
@@ -142,11 +139,7 @@ function readHead(text: Uint8Array): Head {
   try {
     head = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as Head;
   } catch (cause) {
-    throw new RenderError(
-      'renderer/film-state',
-      'The header of this film cannot be read. Render the film again from the start.',
-      { cause },
-    );
+    throw new RenderError('renderer/film-state', 'The header of this film cannot be read. Render it again.', { cause });
   }
   const { width, height, lightPasses, samples, ranges, badSamples, sample, pixel, until, counts, tiles } = head ?? {};
   const { fingerprint, weights, parts } = head ?? {};
