@@ -25,7 +25,7 @@ const BUDGETS = [
   { specifier: '@glanz/denoise', limit: 20 },
   // 92 before edits could be taken back, films saved and resumed, and hierarchies over instances changed in place; 107
   // before paths wrote AOVs and motion, edits were classified, and lights had ids.
-  { specifier: '@glanz/renderer', limit: 112.5, withDependencies: true },
+  { specifier: '@glanz/renderer', limit: 113, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
   // 14 before it kept samples through the loss of a GPU and checked all that it is given.
   { specifier: '@glanz/viewer', limit: 19 },
@@ -34,7 +34,7 @@ const BUDGETS = [
 ];
 
 /** Files that pages take as they are: kB, gzipped. */
-const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 227 }];
+const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 228 }];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 
