@@ -11,8 +11,9 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { Engine } from './engine';
 import { previewOptions } from './engine-settings';
 import { destroyed, ViewerError } from './errors';
-import type { PreviewMode, ViewerOptions } from './options';
+import type { ViewerOptions } from './options';
 import { column, type Orbit, type OrbitLimits, type Vector } from './orbit-state';
+import type { PreviewMode } from './preview';
 
 /** Metres: beyond, single precision, in which the GPU computes, has no digits left for a model. */
 const FAR = 1e12;

@@ -3,7 +3,7 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import type { DenoiseSession } from './denoise-session';
 import type { ViewerState } from './events';
-import type { PreviewMode } from './options';
+import type { PreviewMode } from './preview';
 
 /** What an `Engine` requests from its application, and reports to it. */
 export interface EngineHost {

@@ -1,5 +1,6 @@
 export { createViewer, Viewer } from './viewer';
-export type { LoadOptions, PreviewMode, PreviewOptions, ViewerOptions } from './options';
+export type { PreviewMode } from './preview';
+export type { LoadOptions, PreviewOptions, ViewerOptions } from './options';
 export type { CameraChangeSource, LoadStage, ViewerEvents, ViewerState } from './events';
 export { Emitter, type ListenOptions } from './emitter';
 export type { BlobOptions } from './options';

@@ -7,6 +7,7 @@ import type { ControlOptions } from './controls';
 import type { Denoising } from './denoise-session';
 import type { EnvironmentSource } from './load';
 import type { OrbitLimits } from './orbit-state';
+import type { PreviewMode } from './preview';
 import { type ImageProgress } from './render-copy';
 
 /** Options of `Viewer.toBlob`. */
@@ -129,18 +130,6 @@ export interface LoadOptions {
   /** Look of a model that has several. Default: that of {@link ViewerOptions.variant} where the model has it. */
   readonly variant?: string;
 }
-
-/**
- * What is shown while something moves.
- *
- * - `raw`: the film's samples as they are, in as many pixels as keep the frame rate.
- * - `filtered`: the same with the frames before it, reprojected, and filtered in space: nearly without noise, and
- *   reflections lag a little. When the view rests, the film begins with its own samples, as if nothing had moved, and
- *   takes over as its noise falls.
- * - `auto`: `filtered`, but `raw` on software adapters. Until the filter is loaded and compiled, with the first movement,
- *   and where there is no memory for it (300 bytes a pixel), frames are raw.
- */
-export type PreviewMode = 'auto' | 'raw' | 'filtered';
 
 /** See {@link ViewerOptions.preview}. */
 export interface PreviewOptions {

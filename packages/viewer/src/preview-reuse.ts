@@ -1,7 +1,7 @@
 import { isSoftware, type PathTracer } from '@glanz/renderer';
 import type { GpuImage } from './display';
 import type { FrameReuse } from './frame-reuse';
-import type { PreviewMode } from './options';
+import type { PreviewMode } from './preview';
 
 /**
  * What moving frames have of those before them: nothing until the filter is loaded and compiled, for which the first

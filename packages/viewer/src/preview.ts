@@ -1,5 +1,17 @@
 import { CostModel } from '@glanz/renderer';
 
+/**
+ * What is shown while something moves.
+ *
+ * - `raw`: the film's samples as they are, in as many pixels as keep the frame rate.
+ * - `filtered`: the same with the frames before it, reprojected, and filtered in space: nearly without noise, and
+ *   reflections lag a little. When the view rests, the film begins with its own samples, as if nothing had moved, and
+ *   takes over as its noise falls.
+ * - `auto`: `filtered`, but `raw` on software adapters. Until the filter is loaded and compiled, with the first movement,
+ *   and where there is no memory for it (300 bytes a pixel), frames are raw.
+ */
+export type PreviewMode = 'auto' | 'raw' | 'filtered';
+
 /** How a preview is made: what share of the image's width and height, and how many samples. */
 export interface PreviewPlan {
   /** Width and height are divided by it: 1, 1.5, 2, 3, 4, 6 or 8. */
