@@ -121,8 +121,8 @@ async function build() {
 
 /**
  * Stages run one after another, those with `beside` beside the others, and all are reported in this order. `beside`
- * names the stage after which one begins, '' for none: it reads what that one leaves, prints nothing itself, and keeps
- * cores busy that the others leave idle.
+ * names the stage after which one begins, because it reads what that one leaves, or writes what it reads. It prints
+ * nothing itself, and keeps cores busy that the others leave idle.
  *
  * @type {{ name: string, title: string, beside?: string, run: () => Promise<import('./pipeline/report.mjs').CheckResult> }[]}
  */
@@ -153,7 +153,8 @@ const STAGES = [
   },
   { name: 'docs', title: 'a doc comment on every exported symbol', run: check('./check-docs.mjs', 'checkDocs') },
   { name: 'unit', title: 'unit and GPU tests, from sources', run: unit },
-  { name: 'build', title: 'every package', beside: '', run: build },
+  // After the linter, which follows imports into builds.
+  { name: 'build', title: 'every package', beside: 'lint', run: build },
   {
     name: 'published',
     title: 'publint, attw, declarations at consumers',
@@ -203,9 +204,9 @@ function chosenStages() {
   );
 }
 
-/** The stage after which one begins: where that is not chosen, the one before it. */
+/** The stage after which one begins: where that is not chosen, the one before it; undefined for none. */
 function chosenBefore({ beside }, chosen) {
-  if (!beside || chosen.some(({ name }) => name === beside)) return beside;
+  if (beside === undefined || chosen.some(({ name }) => name === beside)) return beside;
   return chosenBefore(
     STAGES.find(({ name }) => name === beside),
     chosen,
@@ -234,11 +235,20 @@ await main(async () => {
   };
   /** Ends of the stages that run beside the others. @type {Map<string, ReturnType<typeof attempt>>} */
   const begun = new Map();
+  /** Those of the others that have ended. @type {Map<string, { promise: Promise<void>, resolve: () => void }>} */
+  const ended = new Map(
+    stages.map(({ name }) => {
+      let resolve = () => undefined;
+      const promise = new Promise((done) => (resolve = done));
+      return [name, { promise, resolve }];
+    }),
+  );
   for (const stage of stages.filter(({ beside }) => beside !== undefined))
     begun.set(
       stage.name,
       (async () => {
-        await begun.get(chosenBefore(stage, stages));
+        const before = chosenBefore(stage, stages);
+        await (begun.get(before) ?? ended.get(before)?.promise);
         const end = await attempt(stage);
         if (end.result.failed > 0) process.stdout.write(`\n── ${stage.name} has failed, as is reported in its turn\n`);
         return end;
@@ -251,6 +261,7 @@ await main(async () => {
     const { name, title } = stage;
     process.stdout.write(`\n── ${name}: ${title}\n`);
     const { result, ms } = await (begun.get(name) ?? attempt(stage));
+    ended.get(name)?.resolve();
     for (const line of [...(result.table ?? []), ...(result.lines ?? [])]) process.stdout.write(`${line}\n`);
     passed += result.passed;
     failed += result.failed;
