@@ -20,7 +20,7 @@ const SWAY = 0.12;
 const COMPARED = [29, 59, 89, 119];
 const DEPTH = 6;
 
-/** Ways to show a frame: one raw sample, and that with the frames before. */
+/** Ways to show a frame: its samples as they are, and with the frames before. */
 const WAYS = ['raw', 'temporal'] as const;
 type Way = (typeof WAYS)[number];
 
@@ -50,13 +50,14 @@ interface Series {
   readonly milliseconds: number[];
 }
 
-/** Moving images: an orbit of 120 frames, one sample each, raw and with the frames before, against references. */
+/** Moving images: an orbit of 120 frames of a few samples, raw and with the frames before, against references. */
 export const benchmark: Benchmark = {
-  description: `an orbit of ${FRAMES} frames, one sample each, raw and filtered over time: FLIP against references of the frames, flicker, frame times`,
+  description: `an orbit of ${FRAMES} frames, raw and filtered over time: FLIP against references of the frames, flicker, frame times`,
   options: {
     scenes: { type: 'string', help: `of ${Object.keys(SCENES).join(',')}; default: all` },
     size: { type: 'string', help: 'WIDTHxHEIGHT; default 1920x1080, on software GPUs 160x90' },
     compared: { type: 'string', help: `frames that are compared; default ${COMPARED.join(',')}; "none": times alone` },
+    samples: { type: 'string', help: 'of a frame; default 1' },
     references: { type: 'string', help: 'samples of references; default 256' },
     images: { type: 'string', help: 'folder that the compared images go to, as PNG' },
   },
@@ -68,6 +69,7 @@ export const benchmark: Benchmark = {
       number,
       number,
     ];
+    const samples = Number(values['samples'] ?? 1);
     const referenceSamples = Number(values['references'] ?? (quick ? 4 : 256));
     const last = quick ? 2 : software ? COMPARED[0]! : FRAMES - 1;
     const asked = values['compared'];
@@ -86,8 +88,8 @@ export const benchmark: Benchmark = {
       const product = await load(width / height);
       const create = (aovs: typeof TEMPORAL_AOVS | readonly []) =>
         PathTracer.create(device, product.scene, { width, height, camera: product.camera, maxDepth: DEPTH, aovs });
-      const add = async (tracer: PathTracer, samples: number) => {
-        for await (const progress of tracer.render({ samples, maxSubmitMs: 100 })) void progress;
+      const add = async (tracer: PathTracer, count: number) => {
+        for await (const progress of tracer.render({ samples: count, maxSubmitMs: 100 })) void progress;
       };
       const made = {} as Record<Way, Series>;
       for (const way of WAYS) {
@@ -101,8 +103,8 @@ export const benchmark: Benchmark = {
           const started = performance.now();
           await tracer.setCamera(viewAt(product.camera, scene, frame));
           // Other random numbers than those of the frame before, or its noise would never average out.
-          tracer.reset({ firstSample: frame });
-          await add(tracer, 1);
+          tracer.reset({ firstSample: frame * samples });
+          await add(tracer, samples);
           const image = filter?.filterTracer(tracer, frame === 0 ? 'cuts' : 'moves');
           await device.queue.onSubmittedWorkDone();
           series.milliseconds.push(performance.now() - started);
@@ -151,7 +153,7 @@ export const benchmark: Benchmark = {
     }
     device.destroy();
     return {
-      settings: { width, height, frames: last + 1, radiansPerFrame: STEP, depth: DEPTH, referenceSamples },
+      settings: { width, height, frames: last + 1, radiansPerFrame: STEP, depth: DEPTH, samples, referenceSamples },
       gpu: { name: adapterName, software },
       figures,
       details,
