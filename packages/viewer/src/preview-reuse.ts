@@ -13,8 +13,11 @@ export class PreviewReuse {
   #tracer: PathTracer | undefined;
   #filter: FrameReuse | undefined;
   #image: GpuImage | undefined;
-  /** Number of the first sample of the film, which differs from frame to frame. */
+  /** Number of the first sample of the film, which differs from frame to frame, and samples of the frame before. */
   #first = 0;
+  #taken = 0;
+  /** The tracer whose first frame was shown: the filter is loaded for those that follow. */
+  #shown: PathTracer | undefined;
 
   /** @param device Of the tracer at present. */
   constructor(mode: () => PreviewMode, device: () => GPUDevice | undefined) {
@@ -33,13 +36,15 @@ export class PreviewReuse {
   }
 
   /**
-   * A frame is about to change. Frames of the same random numbers would have the same noise, which would never average
-   * out.
+   * A frame of another film is about to be rendered. Frames of the same random numbers would have the same noise, which
+   * would never average out.
    */
   shift(tracer: PathTracer): void {
-    this.#follow(tracer);
+    if (tracer === this.#shown) this.#follow(tracer);
+    this.#shown = tracer;
     if (!this.#filter) return;
-    this.#first = (this.#first + tracer.samples) % 2 ** 30 || 1;
+    this.#first = (this.#first + this.#taken) % 2 ** 30 || 1;
+    this.#taken = 0;
     tracer.reset({ firstSample: this.#first });
   }
 
@@ -52,14 +57,15 @@ export class PreviewReuse {
   /**
    * Filters what the film shows.
    *
-   * @param changed Whether it shows something else than before.
+   * @param begun Whether the film has begun again since the frame before.
    * @param still Whether the camera has not moved since.
    * @param edited Whether the scene was edited since.
    */
-  async filter(tracer: PathTracer, changed: boolean, still: boolean, edited: boolean): Promise<void> {
-    const filter = this.#follow(tracer) ? this.#filter : undefined;
+  async filter(tracer: PathTracer, begun: boolean, still: boolean, edited: boolean): Promise<void> {
+    const filter = this.#filter;
+    this.#taken = tracer.samples;
     // Without a history the tracer tells no motion: there is none where the camera stands still.
-    const step = !changed ? 'continues' : tracer.history || still ? 'moves' : 'cuts';
+    const step = !begun ? 'continues' : tracer.history || still ? 'moves' : 'cuts';
     const image = await filter?.image(step, edited).catch(() => undefined);
     if (filter === this.#filter) this.#image = image;
   }
@@ -78,7 +84,8 @@ export class PreviewReuse {
   /** Another tracer comes, or none. */
   drop(): void {
     this.#free();
-    this.#first = 0;
+    this.#first = this.#taken = 0;
+    this.#shown = undefined;
   }
 
   #free(): void {
@@ -87,15 +94,12 @@ export class PreviewReuse {
     this.#tracer = this.#filter = undefined;
   }
 
-  /** Loads the filter of a tracer. */
-  #follow(tracer: PathTracer): boolean {
+  /** Loads the filter of a tracer, where the mode asks for one. */
+  #follow(tracer: PathTracer): void {
     const mode = this.#mode();
     const device = this.#device();
-    if (!device || mode === 'raw' || (mode === 'auto' && isSoftware(device.adapterInfo))) {
-      this.#free();
-      return false;
-    }
-    if (tracer === this.#tracer) return true;
+    if (!device || mode === 'raw' || (mode === 'auto' && isSoftware(device.adapterInfo))) return this.#free();
+    if (tracer === this.#tracer) return;
     this.#free();
     this.#tracer = tracer;
     import('./frame-reuse')
@@ -108,6 +112,5 @@ export class PreviewReuse {
         // Frames are shown with their noise.
         () => undefined,
       );
-    return true;
   }
 }

@@ -303,8 +303,8 @@ export class RenderLoop {
     const turned = stepped || this.#dirtyCamera;
     const edited = this.edits.size > 0;
     const changed = turned || edited;
-    if (changed) this.#reuse.shift(tracer);
     if (turned) {
+      this.#reuse.shift(tracer);
       // What stands still keeps its size: samples gather.
       const depth = plan.divisor > 1 ? Math.min(previewDepth, maxDepth) : maxDepth;
       await this.#fit(tracer, full, depth, 1 / plan.divisor);
@@ -318,6 +318,7 @@ export class RenderLoop {
     this.edits.apply(() => this.#edited());
     if (changed) this.#restarted();
     const before = tracer.samples;
+    if (edited && before === 0) this.#reuse.shift(tracer);
     // In its full size it is the image already, and that gets the requested samples.
     const max = this.#whole ? this.#goal : Infinity;
     if (before >= Math.min(PREVIEW_SAMPLES, max) && this.#fresh) return;
@@ -335,7 +336,7 @@ export class RenderLoop {
     const milliseconds = performance.now() - started;
     if (samples > before) this.#preview.measured(tracer.width * tracer.height, samples - before, milliseconds);
     this.#fresh = true;
-    await this.#reuse.filter(tracer, changed, !turned, edited);
+    await this.#reuse.filter(tracer, before === 0, !turned, edited);
     if (tracer === this.#tracer) this.#draw(milliseconds);
   }
 

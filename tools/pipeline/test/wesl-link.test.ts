@@ -102,6 +102,8 @@ function byName(code: string): Map<string, string> {
       const name = /^(?:@ \w+ (?:\( [^)]*\) )?)*(?:fn|struct|const|override|alias|var(?: < [^>]* >)?) (\w+)/.exec(
         declaration,
       )?.[1];
+      // Directives have none.
+      if (name === undefined && /^enable \w+ ;$/.test(declaration)) return [declaration, declaration];
       if (name === undefined) throw new Error(`This declaration has no name: ${declaration.slice(0, 80)}`);
       // The official linker writes no comma after the last of a list.
       return [name, declaration.replace(/ ,(?= [)\]}])/g, '')];
