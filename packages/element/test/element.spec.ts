@@ -377,7 +377,7 @@ test('without a GPU the reason is said at the first refusal, and is an error whe
     .poll(() => page.evaluate(() => window.heard.map(({ type, detail }) => `${type} ${String(detail['code'])}`)))
     .toEqual(['warning renderer/no-adapter', 'error renderer/no-adapter']);
   await expect(page.getByText('Instead')).toBeVisible();
-  await expect(page.getByRole('alert')).toContainText('graphics driver');
+  await expect(page.getByRole('alert')).toContainText('update its driver');
   expect(
     await page.evaluate(() =>
       document.querySelector('glanz-viewer')!.shadowRoot!.querySelector('.progress')!.classList.contains('gone'),

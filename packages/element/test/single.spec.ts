@@ -166,6 +166,6 @@ for (const [kind, files] of [
   });
 }
 
-test('the file takes at most 219 kB, gzipped', () => {
-  expect(gzipSync(readFileSync(join(folder, 'glanz-viewer.min.js')), { level: 9 }).length).toBeLessThanOrEqual(219_000);
+test('the file takes at most 228 kB, gzipped', () => {
+  expect(gzipSync(readFileSync(join(folder, 'glanz-viewer.min.js')), { level: 9 }).length).toBeLessThanOrEqual(228_000);
 });
