@@ -378,6 +378,16 @@ describe('TemporalFilter', () => {
     }
   });
 
+  it('takes an eye on a surface', async () => {
+    const eye = wall(10, 10).position;
+    const shot = { scene: wall, noise: 0.3, eyes: [eye, eye] as const };
+    const { image } = await run([
+      { ...shot, step: 'cuts' },
+      { ...shot, step: 'moves' },
+    ]);
+    expect(image.every(Number.isFinite)).toBe(true);
+  });
+
   it('says what is wrong', async () => {
     const bad = (options: TemporalFilterOptions) => TemporalFilter.create(device, options);
     await expect(bad({ passes: 6 })).rejects.toMatchObject({ code: 'denoise/option' });

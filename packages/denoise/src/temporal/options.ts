@@ -57,9 +57,9 @@ export interface TemporalFrame {
   readonly motion: GPUBuffer;
   readonly step: FrameStep;
   /**
-   * With `moves`: where the frame is seen from, and where the one before was, in the space of `position`. What narrow
-   * lobes reflect changes with the view: the more it turns, and the smoother a surface is, the shorter is its history.
-   * Default: as if surfaces looked the same from everywhere.
+   * Where the frame is seen from, and where the one before was, in the space of `position`. What narrow lobes reflect
+   * changes with the view: the more it turns, and the smoother a surface is, the shorter is its history, and the nearer
+   * are the neighbours that it is filtered with. Default: both at the origin.
    */
   readonly eyes?: readonly [now: Point, before: Point] | undefined;
   /** With `moves`: whether instances have moved, not the camera alone. Default false. */

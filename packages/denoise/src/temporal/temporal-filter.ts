@@ -294,7 +294,7 @@ export class TemporalFilter {
       motion: buffer('motion'),
       step,
       instancesMoved,
-      eyes: tracer.history && [eyeOf(tracer.camera), eyeOf(tracer.history.camera)],
+      eyes: [eyeOf(tracer.camera), eyeOf((tracer.history ?? tracer).camera)],
     });
   }
 
