@@ -109,7 +109,7 @@ export function fileServer(folder: string): Server {
 }
 
 /** Listens, on any free port for 0. @throws {CliError} `cli/port` */
-export async function listen(server: StatusServer, port: number, host: string): Promise<void> {
+async function listen(server: StatusServer, port: number, host: string): Promise<void> {
   await new Promise<void>((done, fail) => {
     server.once('error', (cause: NodeJS.ErrnoException) =>
       fail(
@@ -122,6 +122,31 @@ export async function listen(server: StatusServer, port: number, host: string): 
     );
     server.listen(port, host, done);
   });
+}
+
+/**
+ * Listens, says where, and ends with Ctrl-C. Gives the exit code.
+ * @throws {CliError} where it cannot listen.
+ */
+export async function serveUntilInterrupt(
+  server: StatusServer,
+  { port, host, json, quiet }: ReportOptions & Pick<ServeCommand, 'port' | 'host'>,
+  io: CliIo,
+): Promise<number> {
+  await listen(server, port, host);
+  const { port: actual } = server.address() as AddressInfo;
+  const url = `http://${host.includes(':') ? `[${host}]` : host}:${actual}/`;
+  if (json) io.stdout(jsonLine({ ok: true, url }));
+  else if (!quiet) io.stderr(`${visible(url)} — Ctrl-C ends\n`);
+  await new Promise<void>((done) => {
+    const stop = io.onInterrupt(() => {
+      stop();
+      done();
+    });
+  });
+  server.closeAllConnections();
+  await new Promise<void>((done) => server.close(() => done()));
+  return EXIT.ok;
 }
 
 /**
@@ -138,19 +163,5 @@ export async function serveCommand(
       'cli/missing-package',
       'This copy of @glanz/cli lacks the playground: build it (npm run build) or install the package again.',
     );
-  const server = fileServer(folder);
-  await listen(server, port, host);
-  const { port: actual } = server.address() as AddressInfo;
-  const url = `http://${host.includes(':') ? `[${host}]` : host}:${actual}/`;
-  if (json) io.stdout(jsonLine({ ok: true, url }));
-  else if (!quiet) io.stderr(`${visible(url)} — Ctrl-C ends\n`);
-  await new Promise<void>((done) => {
-    const stop = io.onInterrupt(() => {
-      stop();
-      done();
-    });
-  });
-  server.closeAllConnections();
-  await new Promise((done) => server.close(done));
-  return EXIT.ok;
+  return serveUntilInterrupt(fileServer(folder), { port, host, json, quiet }, io);
 }
