@@ -1,6 +1,7 @@
 import { createCornellBox, createPushButton } from '@glanz/models';
 import { PathTracer, requestDevice, type AovName } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import { createScene, type Material, type Scene } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 import { timed, type Benchmark, type Figure } from '../benchmark';
@@ -16,18 +17,7 @@ const ALLOWED = 3;
 const REQUESTS = {
   none: [],
   guides: ['albedo', 'normal'],
-  all: [
-    'albedo',
-    'normal',
-    'virtualDepth',
-    'coverage',
-    'depth',
-    'position',
-    'objectId',
-    'materialId',
-    'roughness',
-    'motion',
-  ],
+  all: RENDER_OPTIONS.aovs.values,
 } as const satisfies Readonly<Record<string, readonly AovName[]>>;
 
 type Request = keyof typeof REQUESTS;

@@ -1,5 +1,6 @@
 import { createCornellBox, createPushButton } from '@glanz/models';
 import type { AovName, FilmLayer, PathTracerOptions } from '@glanz/renderer';
+import { RENDER_OPTIONS } from '@glanz/renderer/options';
 import { createScene, frameCamera, type Light, type Material, type Scene } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 import { addTexture, image, place, sphere, square, translation } from './shapes';
@@ -375,18 +376,7 @@ const BIASED: readonly HashCase[] = [
   },
 ];
 
-const AOVS = [
-  'albedo',
-  'normal',
-  'virtualDepth',
-  'coverage',
-  'depth',
-  'position',
-  'objectId',
-  'materialId',
-  'roughness',
-  'motion',
-] as const;
+const AOVS = RENDER_OPTIONS.aovs.values;
 
 const layersAlone = (name: string, layers: readonly AovName[], parameters: Parameters): HashCase => ({
   name: `AOVs ${name}`,
