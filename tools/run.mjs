@@ -65,7 +65,7 @@ const tasks = {
   },
   format: {
     help: 'format the sources, lines up to 120 columns (--check: only say which are not)',
-    run: (args) => node(bin('prettier', 'bin/prettier.cjs'), formatArguments(args.includes('--check'))),
+    run: (args) => node(bin('oxfmt', 'bin/oxfmt'), formatArguments(args.includes('--check'))),
   },
   lint: {
     help: 'oxlint, warnings are errors',

@@ -141,8 +141,8 @@ const STAGES = [
   },
   {
     name: 'format',
-    title: 'prettier, lines up to 120 columns',
-    run: () => program(bin('prettier', 'bin/prettier.cjs'), formatArguments(true)),
+    title: 'oxfmt, lines up to 120 columns',
+    run: () => program(bin('oxfmt', 'bin/oxfmt'), formatArguments(true)),
   },
   { name: 'words', title: "the field's words", run: check('./check-words.mjs', 'checkWords') },
   { name: 'wesl', title: 'shader sources: lengths and conditions', run: check('./check-wesl.mjs', 'checkWesl') },

@@ -30,7 +30,8 @@ const NEAREST = 9728;
 
 /** An image of the scene: an image of the document, or one computed from several (undefined: absent). */
 type SceneImage =
-  { readonly image: number } | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedImage };
+  | { readonly image: number }
+  | { readonly sources: readonly (number | undefined)[]; readonly derived: DerivedImage };
 
 const white = (): DecodedImage => ({ width: 1, height: 1, data: new Uint8Array([255, 255, 255, 255]) });
 

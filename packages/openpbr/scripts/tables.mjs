@@ -416,13 +416,13 @@ ${Object.entries(LAYOUT)
   .map(([name, value]) => `const OPENPBR_TABLE_${name.replace(/[A-Z]/g, '_$&').toUpperCase()} = ${value}.0;\n`)
   .join('')}`,
   'encoded.ts': `${note}
-// prettier-ignore
+// oxfmt-ignore
 export const ENCODED_DIELECTRIC = ${encode(dielectric(), STEP)};
 
-// prettier-ignore
+// oxfmt-ignore
 export const ENCODED_CONDUCTOR = ${encode(conductor(), FINE_STEP)};
 
-// prettier-ignore
+// oxfmt-ignore
 export const ENCODED_SHEEN = ${encode(fuzz(), STEP)};
 `,
 };

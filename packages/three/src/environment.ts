@@ -21,7 +21,8 @@ export async function readEnvironment(
   const loose = root as unknown as Loose;
   const intensity = (loose['environmentIntensity'] as number | undefined) ?? 1;
   const turn = (loose['environmentRotation'] as
-    { readonly x: number; readonly y: number; readonly z: number } | undefined) ?? { x: 0, y: 0, z: 0 };
+    | { readonly x: number; readonly y: number; readonly z: number }
+    | undefined) ?? { x: 0, y: 0, z: 0 };
   const visible = background === environment && environment !== undefined && environment !== null;
   const image = environment ? await readImage(environment, scene, textures) : undefined;
   if (Math.abs(turn.x) + Math.abs(turn.z) > 1e-6)

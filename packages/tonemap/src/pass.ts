@@ -50,7 +50,8 @@ export class ToneMapPass {
   #destroyed = false;
   #pipeline: GPURenderPipeline | undefined;
   #bound:
-    { readonly source: GPUBuffer; readonly pipeline: GPURenderPipeline; readonly group: GPUBindGroup } | undefined;
+    | { readonly source: GPUBuffer; readonly pipeline: GPURenderPipeline; readonly group: GPUBindGroup }
+    | undefined;
 
   private constructor(device: GPUDevice, options: ToneMapPassOptions) {
     this.#device = device;

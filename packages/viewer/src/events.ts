@@ -9,7 +9,16 @@ import type { Orbit } from './orbit-state';
  * `destroyed`.
  */
 export type ViewerState =
-  'empty' | 'loading' | 'moving' | 'rendering' | 'done' | 'paused' | 'hidden' | 'recovering' | 'failed' | 'destroyed';
+  | 'empty'
+  | 'loading'
+  | 'moving'
+  | 'rendering'
+  | 'done'
+  | 'paused'
+  | 'hidden'
+  | 'recovering'
+  | 'failed'
+  | 'destroyed';
 
 /** Stages of a load, in their order. */
 export type LoadStage = 'read' | 'decode' | 'images' | 'bvh' | 'upload' | 'compile';

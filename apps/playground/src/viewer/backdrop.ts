@@ -118,7 +118,8 @@ function look(
 export class Backdrop {
   readonly #canvas: HTMLCanvasElement;
   #blurred:
-    { readonly data: Float32Array; readonly degrees: number; readonly environment: LatLongEnvironment } | undefined;
+    | { readonly data: Float32Array; readonly degrees: number; readonly environment: LatLongEnvironment }
+    | undefined;
 
   constructor(canvas: HTMLCanvasElement) {
     this.#canvas = canvas;

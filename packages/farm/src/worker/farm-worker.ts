@@ -245,9 +245,12 @@ export class FarmWorker {
   async #pauseAfterLoss(): Promise<void> {
     this.#renderer.kill();
     await this.#bull?.pause(true);
-    this.#pause = setTimeout(() => {
-      if (!this.#draining) this.#bull?.resume();
-    }, pauseAfter(++this.#losses));
+    this.#pause = setTimeout(
+      () => {
+        if (!this.#draining) this.#bull?.resume();
+      },
+      pauseAfter(++this.#losses),
+    );
   }
 
   async #heartbeat(): Promise<void> {

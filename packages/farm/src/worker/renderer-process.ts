@@ -45,7 +45,8 @@ export class RenderFailure extends Error {
 
 /** How a job ended, if it did not fail. */
 export type RenderEnd =
-  { readonly type: 'done'; readonly files: readonly string[]; readonly info?: unknown } | { readonly type: 'stopped' };
+  | { readonly type: 'done'; readonly files: readonly string[]; readonly info?: unknown }
+  | { readonly type: 'stopped' };
 
 /** Options of {@link RendererProcess}. */
 export interface RendererProcessOptions {

@@ -28,7 +28,9 @@ export interface FuzzFinding {
  * or an error's code.
  */
 export type FuzzMessage =
-  { readonly at: number } | { readonly finding: FuzzFinding } | { readonly done: Readonly<Record<string, number>> };
+  | { readonly at: number }
+  | { readonly finding: FuzzFinding }
+  | { readonly done: Readonly<Record<string, number>> };
 
 /**
  * Mutants whose operations are counted at once, and how many operations they may take: a document can ask for 2^28

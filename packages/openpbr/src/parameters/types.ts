@@ -108,7 +108,15 @@ export type OpenPbrParameterName = keyof OpenPbrParameters;
 
 /** The parameter groups of the specification. */
 export type OpenPbrGroup =
-  'base' | 'specular' | 'transmission' | 'subsurface' | 'coat' | 'fuzz' | 'emission' | 'thin_film' | 'geometry';
+  | 'base'
+  | 'specular'
+  | 'transmission'
+  | 'subsurface'
+  | 'coat'
+  | 'fuzz'
+  | 'emission'
+  | 'thin_film'
+  | 'geometry';
 
 /**
  * `float` is a number, `color3` an {@link OpenPbrColor}, `vector3` an {@link OpenPbrVector} or `null`, `boolean` a

@@ -4,7 +4,11 @@ import { isSoftware } from '../device/software';
 
 /** Formats of texture arrays; images that come in blocks keep them. */
 export type TextureFormat =
-  'rgba8unorm' | 'rgba8unorm-srgb' | 'rgba16float' | CompressedFormat | `${CompressedFormat}-srgb`;
+  | 'rgba8unorm'
+  | 'rgba8unorm-srgb'
+  | 'rgba16float'
+  | CompressedFormat
+  | `${CompressedFormat}-srgb`;
 
 const FEATURES: Readonly<Record<CompressedFormat, GPUFeatureName>> = {
   'astc-4x4-unorm': 'texture-compression-astc',

@@ -13,7 +13,14 @@ interface Resource {
   /** WGSL type after `var<…> name:`. */
   readonly type: string;
   readonly space:
-    'uniform' | 'read' | 'read_write' | 'texture_2d' | 'texture_2d_array' | 'texture_3d' | 'unfilterable' | 'sampler';
+    | 'uniform'
+    | 'read'
+    | 'read_write'
+    | 'texture_2d'
+    | 'texture_2d_array'
+    | 'texture_3d'
+    | 'unfilterable'
+    | 'sampler';
   readonly deps?: readonly WgslModule[];
   /** The struct of its elements, where that depends on the scene. */
   readonly layout?: (flags: Flags) => { readonly module: WgslModule };

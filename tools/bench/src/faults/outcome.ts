@@ -9,7 +9,16 @@ export type Subject = 'tracer' | 'viewer' | 'cli';
  * fault gave the right image. The others are failures; `crash`: the process died.
  */
 export type Ending =
-  'image' | 'error' | 'crash' | 'silent' | 'hang' | 'unhandled' | 'untyped' | 'unusable' | 'not-rolled-back' | 'leak';
+  | 'image'
+  | 'error'
+  | 'crash'
+  | 'silent'
+  | 'hang'
+  | 'unhandled'
+  | 'untyped'
+  | 'unusable'
+  | 'not-rolled-back'
+  | 'leak';
 
 /** One injected fault and how it ended. */
 export interface Outcome {
