@@ -18,14 +18,16 @@ import { NODE_PACKAGES, entriesOf } from './pipeline/workspace.mjs';
  */
 const BUDGETS = [
   { specifier: '@glanz/bvh', limit: 10 },
-  { specifier: '@glanz/bvh/gpu', limit: 13 },
+  // 13 before leaf orders became hierarchies for queries on the CPU.
+  { specifier: '@glanz/bvh/gpu', limit: 13.5 },
   { specifier: '@glanz/openpbr', limit: 30, without: '@glanz/openpbr/tables' },
   { specifier: '@glanz/tonemap', limit: 5 },
   // Weights are not in it.
   { specifier: '@glanz/denoise', limit: 20 },
   // 92 before edits could be taken back, films saved and resumed, and hierarchies over instances changed in place; 107
-  // before paths wrote AOVs and motion, edits were classified, and lights had ids.
-  { specifier: '@glanz/renderer', limit: 113, withDependencies: true },
+  // before paths wrote AOVs and motion, edits were classified, and lights had ids; 113 before it chose where hierarchies
+  // are built, placed those of the GPU, and read them back for edits.
+  { specifier: '@glanz/renderer', limit: 115, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
   // 14 before it kept samples through the loss of a GPU and checked all that it is given.
   { specifier: '@glanz/viewer', limit: 19 },
@@ -34,7 +36,8 @@ const BUDGETS = [
 ];
 
 /** Files that pages take as they are: kB, gzipped. */
-const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 228 }];
+// 228 before the renderer chose where hierarchies are built; what builds them on the GPU lies beside the file.
+const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 229 }];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 

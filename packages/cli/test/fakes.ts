@@ -41,6 +41,7 @@ const STATISTICS: RenderStatistics = {
   checkMs: 0.5,
   textMs: 0.5,
   bvhMs: 1,
+  builds: [],
   uploadMs: 2,
   lightMs: 1,
   compileMs: 3,

@@ -1,7 +1,7 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
-// only some files need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2), and what saves images, lies beside it and is
-// fetched by import() when it is needed.
+// only some files need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes), and what saves images, lies
+// beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -31,6 +31,14 @@ const LATER = {
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
   './material-colors': 'glanz-viewer.colors.min.js',
+  './gpu-trees': 'glanz-viewer.gpu-trees.min.js',
+};
+
+/** Where the modules of the sources among them are, from the viewer's folder. */
+const SOURCES = {
+  './save-image': './src/save-image',
+  './material-colors': './src/material-colors',
+  './gpu-trees': '../renderer/src/geometry/gpu-trees',
 };
 
 /** The same for modules of src/decoders, by their names there; of each, what it exports. */
@@ -107,8 +115,9 @@ const sources = (missing, files) => ({
 const beside = (files) => ({
   name: 'beside',
   setup(context) {
-    context.onResolve({ filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors)$)/ }, ({ path }) =>
-      Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined,
+    context.onResolve(
+      { filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|gpu-trees)$)/ },
+      ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );
     context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) =>
       /[\\/]decoders[\\/]index\.ts$/.test(importer)
@@ -144,9 +153,7 @@ export async function buildSingleFile(folder, to) {
     );
   // Their errors are of the same class.
   for (const [module, name] of Object.entries(LATER))
-    names.push(
-      await write(`export * from '${module.replace(/^\.\//, './src/')}';`, name, { '@glanz/wgsl/error': MAIN }),
-    );
+    names.push(await write(`export * from '${SOURCES[module] ?? module}';`, name, { '@glanz/wgsl/error': MAIN }));
   for (const [module, { file, exports }] of Object.entries(DECODERS))
     names.push(
       await write(`export { ${exports} } from '../element/src/decoders/${module}';`, file, {

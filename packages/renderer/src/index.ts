@@ -10,6 +10,7 @@ export type {
   BounceLimits,
   FilmAov,
   FilmLayer,
+  HierarchyBuild,
   HierarchyBuilder,
   HistoryFrame,
   LightGroup,

@@ -9,6 +9,7 @@ import { RenderError } from './errors';
 import { aovBuffers, aovFlags } from './film/aovs';
 import { Film } from './film/film';
 import { prepareGeometry, type Geometry } from './geometry/geometry';
+import type { HierarchyOptions } from './geometry/hierarchies';
 import { isShown } from './geometry/placement';
 import { Integrator } from './integrator/integrator';
 import type { KernelCache } from './integrator/kernel-cache';
@@ -60,6 +61,7 @@ export interface PreparationInput {
   readonly cache: KernelCache;
   readonly scene: Scene;
   readonly options: TracerSettings;
+  readonly builders: HierarchyOptions;
   /** Whether the first image comes too late. */
   readonly isLate: () => boolean;
 }
@@ -130,17 +132,17 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
 ];
 
 /** The stages that bring the scene to the GPU. */
-function transfer({ device, memory, cache, options, isLate }: PreparationInput) {
-  const { hierarchies, onProgress, onFirstLight } = options;
+function transfer({ device, memory, cache, options, builders, isLate }: PreparationInput) {
+  const { onProgress, onFirstLight } = options;
   return [
     stage({
       name: 'geometry',
       needs: ['scene'],
-      place: hierarchies ? 'elsewhere' : 'foreground',
+      place: builders.hierarchies || builders.gpu ? 'elsewhere' : 'foreground',
       run({ scene }, { signal }) {
         onProgress?.({ stage: 'bvh', done: 0 });
         const report = (done: number) => onProgress?.({ stage: 'bvh', done });
-        return prepareGeometry(scene, { hierarchies, signal, onProgress: report });
+        return prepareGeometry(scene, { ...builders, signal, onProgress: report });
       },
     }),
     stage({

@@ -2,6 +2,7 @@ import { yieldToEventLoop, type Camera, type Scene } from '@glanz/scene';
 import { lossInfo } from './device/device-loss';
 import { deviceLost } from './errors';
 import type { Film } from './film/film';
+import { gpuBuilds, type HierarchyBuild } from './geometry/hierarchy';
 import type { Integrator } from './integrator/integrator';
 import { KernelCache } from './integrator/kernel-cache';
 import { checkSize, resolveOptions, type TracerSettings } from './option-checks';
@@ -24,7 +25,10 @@ export interface Prepared {
   readonly camera: Camera;
   readonly options: TracerSettings;
   /** Times of the preparation. */
-  readonly times: Pick<RenderStatistics, 'checkMs' | 'textMs' | 'bvhMs' | 'uploadMs' | 'lightMs' | 'compileMs'>;
+  readonly times: Pick<
+    RenderStatistics,
+    'checkMs' | 'textMs' | 'bvhMs' | 'builds' | 'uploadMs' | 'lightMs' | 'compileMs'
+  >;
 }
 
 /** Builds, uploads and compiles what a tracer needs, see `PathTracer.create`. */
@@ -37,6 +41,8 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, given: Path
   await yieldToEventLoop();
   const memory = new GpuMemory(device);
   const cache = new KernelCache(device);
+  const builders = { hierarchies: options.hierarchies, gpu: gpuBuilds(device, memory, options.bvhBuilder) };
+  const builds: HierarchyBuild[] = [];
   let late = false;
   const check = () => {
     const lost = lossInfo(device);
@@ -44,7 +50,15 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, given: Path
   };
   try {
     const { products, times } = await runStages(
-      preparationStages({ device, memory, cache, scene, options, isLate: () => late }),
+      preparationStages({
+        device,
+        memory,
+        cache,
+        scene,
+        options,
+        builders: { ...builders, onBuilt: (build) => builds.push(build) },
+        isLate: () => late,
+      }),
       { signal: options.signal, check },
     );
     products.firstLight();
@@ -52,7 +66,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, given: Path
     return {
       device,
       memory,
-      editor: new SceneEditor(own, geometry, gpuScene, options.hierarchies),
+      editor: new SceneEditor(own, geometry, gpuScene, builders),
       gpuScene,
       cache,
       integrator,
@@ -63,6 +77,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, given: Path
         checkMs: times.expected.end - begun,
         textMs: times.request.end - times.request.begin,
         bvhMs: times.geometry.end - times.geometry.begin,
+        builds,
         uploadMs: times.gpuScene.end - times.geometry.end,
         lightMs: times.gpuScene.end - times.firstLight.end,
         compileMs: times.kernels.end - times.request.begin,

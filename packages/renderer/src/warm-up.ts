@@ -1,5 +1,7 @@
 import { createScene, type Mesh, type Scene } from '@glanz/scene';
 import type { PathTracerOptions } from './options';
+import { loadGpuTrees } from './geometry/hierarchies';
+import { buildsOnGpu } from './geometry/hierarchy';
 import { PathTracer } from './path-tracer';
 
 /** Options for {@link warmUp}: those that later tracers will be created with, as far as they are known. */
@@ -79,6 +81,11 @@ export async function warmUp(device: GPUDevice, options: WarmUpOptions = {}): Pr
   const gone = new ArrayBuffer(8);
   structuredClone(gone, { transfer: [gone] });
   try {
+    // The small scene is built on the CPU; the shaders that build large meshes compile meanwhile.
+    if (buildsOnGpu(device, options.bvhBuilder))
+      void loadGpuTrees()
+        .then(({ gpuBuilder }) => gpuBuilder(device))
+        .catch(() => {});
     const tracer = await PathTracer.create(device, smallScene(), {
       ...options,
       width: 8,

@@ -106,7 +106,8 @@ export class GpuBuilder {
       const blas = { ...tree, triangleIndices: order, triangleCount: count, destroy };
       if (!packTriangles) return blas;
       try {
-        const triangles = await this.#packTriangles({ kind, buffers, params: { ...params, count } }, order);
+        const input = { kind, buffers, params: { ...params, count } };
+        const triangles = await this.#packTriangles(input, order, options.signal);
         own.push(triangles);
         return { ...blas, triangles };
       } catch (error) {
@@ -253,7 +254,11 @@ export class GpuBuilder {
     };
   }
 
-  async #packTriangles({ kind, buffers, params }: Input, order: GPUBuffer): Promise<GPUBuffer> {
+  async #packTriangles(
+    { kind, buffers, params }: Input,
+    order: GPUBuffer,
+    signal: AbortSignal | undefined,
+  ): Promise<GPUBuffer> {
     const size = 48 * Math.max(1, params.count);
     const { maxStorageBufferBindingSize } = this.#device.limits;
     if (size > maxStorageBufferBindingSize)
@@ -263,6 +268,10 @@ export class GpuBuilder {
       );
     const kernel = await this.#kernel(`triangles ${kind}`, () => compileTriangles(this.#device, kind));
     const { triangles } = await createBuffers(this.#device, { triangles: size }, STORAGE | COPY_SRC);
+    if (signal?.aborted) {
+      triangles.destroy();
+      throw signal.reason;
+    }
     const step = {
       kernel,
       params,

@@ -1,4 +1,5 @@
 export { GpuBuilder } from './builder';
+export { blasInOrder } from './in-order';
 export { gpuBuildMemory } from './plan';
 export { readGpuBlas } from './read';
 export { GpuRefitter, type RefitBlas } from './refit';

@@ -65,7 +65,13 @@ const partsKnown = /* @__PURE__ */ new WeakMap<Geometry['blas'], readonly BlasMe
 function partsOf(scene: Scene, { blas }: Geometry): readonly BlasMesh[] {
   let parts = partsKnown.get(blas);
   if (!parts) {
-    const byMesh = scene.meshes.map((mesh, i): BlasMesh => ({ blas: blas[i] as BlasMesh['blas'], mesh }));
+    const byMesh = scene.meshes.map((mesh, i): BlasMesh => ({
+      mesh,
+      // Asked for when a ray comes near the mesh: for a hierarchy on the GPU another one is made then.
+      get blas() {
+        return (blas[i]?.gpu?.forQueries() ?? blas[i]) as BlasMesh['blas'];
+      },
+    }));
     partsKnown.set(blas, (parts = scene.instances.map(({ mesh }) => byMesh[mesh] as BlasMesh)));
   }
   return parts;

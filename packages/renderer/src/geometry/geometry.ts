@@ -1,29 +1,20 @@
-import { packTriangles, type Blas } from '@glanz/bvh';
+import { packTriangles } from '@glanz/bvh';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../storage/layout';
 import { createYielder, buildHierarchies, type HierarchyOptions } from './hierarchies';
+import type { Hierarchy, MeshRegion } from './hierarchy';
 import { isShown, Placement } from './placement';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
 const TRIANGLE_WORDS = 12;
 
-/** A part of the GPU's buffers that belongs to one mesh, in nodes, triangles and words. */
-export interface MeshRegion {
-  readonly firstNode: number;
-  readonly nodes: number;
-  readonly firstTriangle: number;
-  readonly triangles: number;
-  readonly firstWord: number;
-  readonly words: number;
-}
-
 /** A scene's shapes: hierarchies, and where everything lies in the GPU's buffers. */
 export interface Geometry {
   /** Changes in place as instances move, appear and disappear. */
   readonly placement: Placement;
-  readonly blas: readonly (Blas | undefined)[];
+  readonly blas: readonly (Hierarchy | undefined)[];
   /** Nodes kept for the upper levels at the beginning of the node buffer. */
   readonly tlasNodes: number;
   readonly regions: readonly MeshRegion[];
@@ -52,7 +43,7 @@ function usedMeshes(scene: Scene): number[] {
 }
 
 /** The meshes in use that have no hierarchy yet. */
-export function missingMeshes(scene: Scene, blas: readonly (Blas | undefined)[]): number[] {
+export function missingMeshes(scene: Scene, blas: readonly (Hierarchy | undefined)[]): number[] {
   return usedMeshes(scene).filter((index) => !blas[index]);
 }
 
@@ -64,8 +55,8 @@ export function missingMeshes(scene: Scene, blas: readonly (Blas | undefined)[])
 export async function prepareHierarchies(
   scene: Scene,
   options: HierarchyOptions = {},
-  blas: readonly (Blas | undefined)[] = [],
-): Promise<(Blas | undefined)[]> {
+  blas: readonly (Hierarchy | undefined)[] = [],
+): Promise<(Hierarchy | undefined)[]> {
   const all = scene.meshes.map((_, i) => blas[i]);
   const missing = missingMeshes(scene, all);
   const built = await buildHierarchies(
@@ -95,7 +86,7 @@ export function attributeWords(mesh: Mesh): number {
  *
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
-export function layOutGeometry(scene: Scene, blas: readonly (Blas | undefined)[]): Geometry {
+export function layOutGeometry(scene: Scene, blas: readonly (Hierarchy | undefined)[]): Geometry {
   const placement = new Placement(scene, blas);
   const tlasNodes = placement.nodeCapacity;
   const regions: MeshRegion[] = [];
@@ -169,7 +160,8 @@ function* slicesOf(
 
 /**
  * Shapes for the GPU, slice by slice: what {@link packGeometry} gives as a whole, without ever holding it. Slices are
- * to be written or copied before the next is asked for.
+ * to be written or copied before the next is asked for. Of a mesh whose hierarchy is on the GPU, they lack what
+ * `HierarchyOnGpu.place` copies.
  */
 export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeSlice> {
   for (const { first, nodes } of geometry.placement.allNodes()) yield* slicesOf('nodes', 4 * first * NODE_WORDS, nodes);
@@ -182,9 +174,12 @@ export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeS
     const region = geometry.regions[index] as MeshRegion;
     const tree = geometry.blas[index];
     if (!tree) continue;
-    yield* slicesOf('nodes', 4 * region.firstNode * NODE_WORDS, tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS));
     const { positions, indices } = mesh;
-    for (let first = 0; first < tree.triangleIndices.length; first += SLICE_TRIANGLES) {
+    // What is on the GPU already is copied there.
+    const { nodes } = tree;
+    if (nodes)
+      yield* slicesOf('nodes', 4 * region.firstNode * NODE_WORDS, nodes.subarray(0, region.nodes * NODE_WORDS));
+    for (let first = 0; nodes && first < tree.triangleIndices.length; first += SLICE_TRIANGLES) {
       const data = packTriangles(
         { triangleIndices: tree.triangleIndices.subarray(first, first + SLICE_TRIANGLES) },
         { positions, indices },
@@ -194,7 +189,7 @@ export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeS
     let word = region.firstWord;
     for (const array of attributesOf(mesh)) {
       if (!array) continue;
-      yield* slicesOf('attributes', 4 * word, array);
+      if (nodes || array !== indices) yield* slicesOf('attributes', 4 * word, array);
       word += array.length;
     }
   }
@@ -232,7 +227,7 @@ export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice>
     if (bytes > 0) yield { buffer, offset, data: memory.subarray(0, bytes) };
 }
 
-/** Writes shapes for the GPU, yielding to the event loop now and then. */
+/** Writes shapes for the GPU, yielding to the event loop now and then. All hierarchies have nodes on the CPU. */
 export async function packGeometry(scene: Scene, geometry: Geometry, signal?: AbortSignal): Promise<PackedGeometry> {
   const packed = {
     nodes: new Float32Array(geometry.nodeCount * NODE_WORDS),
@@ -268,7 +263,7 @@ function writeRecord(
   records: Uint32Array,
   at: number,
   mesh: Mesh,
-  tree: Blas | undefined,
+  tree: Hierarchy | undefined,
   { firstWord }: MeshRegion,
 ): void {
   let word = firstWord;
@@ -279,11 +274,12 @@ function writeRecord(
   });
 }
 
-/** Writes one mesh for its region. */
-export function packMesh(mesh: Mesh, tree: Blas | undefined, region: MeshRegion): PackedMesh {
+/** Writes one mesh for its region. Its hierarchy, if it has one, has nodes on the CPU. */
+export function packMesh(mesh: Mesh, tree: Hierarchy | undefined, region: MeshRegion): PackedMesh {
   const record = new Uint32Array(RECORD_WORDS);
   writeRecord(record, 0, mesh, tree, region);
-  if (!tree) return { record, nodes: new Float32Array(), triangles: new Float32Array(), attributes: new Uint32Array() };
+  if (!tree?.nodes)
+    return { record, nodes: new Float32Array(), triangles: new Float32Array(), attributes: new Uint32Array() };
   const attributes = new Uint32Array(attributeWords(mesh));
   let at = 0;
   for (const array of attributesOf(mesh)) {

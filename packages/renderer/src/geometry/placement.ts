@@ -1,7 +1,8 @@
-import type { Blas, TlasInstance } from '@glanz/bvh';
+import type { TlasInstance } from '@glanz/bvh';
 import { DynamicTlas } from '@glanz/bvh/dynamic-tlas';
 import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
 import { RenderError } from '../errors';
+import type { Hierarchy } from './hierarchy';
 import { NONE } from '../storage/layout';
 import { emittedRadiance } from '../materials/materials';
 import { parametersOf } from '../materials/parameters';
@@ -40,7 +41,7 @@ export class Placement {
   #isBareNew = false;
 
   /** @throws {RenderError} `renderer/no-triangles` if nothing can be seen. */
-  constructor(scene: Scene, blas: readonly (Blas | undefined)[]) {
+  constructor(scene: Scene, blas: readonly (Hierarchy | undefined)[]) {
     const { length } = scene.instances;
     this.tlas = new DynamicTlas(scene.instances.map((instance) => placing(scene, blas, instance)));
     this.instanceSlots = new Uint32Array(length).fill(NONE);
@@ -85,7 +86,7 @@ export class Placement {
    * @throws {RenderError} `renderer/no-triangles` if nothing can be seen any more. The change has been followed all the
    * same.
    */
-  update(scene: Scene, blas: readonly (Blas | undefined)[], changed: readonly number[], moved: boolean): void {
+  update(scene: Scene, blas: readonly (Hierarchy | undefined)[], changed: readonly number[], moved: boolean): void {
     const changes = () => changed.map((i) => [i, placing(scene, blas, scene.instances[i] as Instance)] as const);
     if (moved) this.tlas.update(changes());
     for (const i of changed) this.#note(scene, i);
@@ -134,7 +135,7 @@ export class Placement {
   }
 
   /** Makes the second hierarchy, where there are catchers. */
-  #placeBare(scene: Scene, blas: readonly (Blas | undefined)[]): void {
+  #placeBare(scene: Scene, blas: readonly (Hierarchy | undefined)[]): void {
     const isGlowing = glowing(scene);
     this.#bare =
       this.#catchers > 0
@@ -158,7 +159,7 @@ export class Placement {
   }
 }
 
-function placing(scene: Scene, blas: readonly (Blas | undefined)[], instance: Instance): TlasInstance | undefined {
+function placing(scene: Scene, blas: readonly (Hierarchy | undefined)[], instance: Instance): TlasInstance | undefined {
   const tree = blas[instance.mesh];
   return tree && tree.triangleIndices.length > 0 && isShown(scene, instance)
     ? { bounds: tree.bounds, transform: instance.transform }

@@ -6,7 +6,8 @@ import type { AovName, BounceLimits, PathTracerOptions, PixelFilter, RenderOptio
  * - `kernel`: it decides which code the kernels contain. Changed kernels are compiled, and the film restarts.
  * - `film`: it decides how large the film is. The film is allocated again, and changed kernels are compiled.
  * - `layers`: it decides what the film keeps besides the image. Changed kernels are compiled; the film keeps its samples.
- * - `schedule`: it decides when samples are taken and how many, not their values. The film keeps its samples.
+ * - `schedule`: it decides when samples are taken and how many, or where a scene is prepared, not their values. The film
+ *   keeps its samples.
  */
 export type RenderOptionEffect = 'uniform' | 'kernel' | 'film' | 'layers' | 'schedule';
 
@@ -145,6 +146,7 @@ export const RENDER_OPTIONS = {
   lightSampling: { type: 'enum', values: ['tree', 'power'], default: 'tree', effect: 'kernel' },
   shadowTerminator: { type: 'enum', values: ['smooth', 'faceted'], default: 'smooth', effect: 'kernel' },
   textureLodBias: { type: 'number', range: [-32, 32], default: -1, effect: 'uniform' },
+  bvhBuilder: { type: 'enum', values: ['auto', 'cpu', 'gpu'], default: 'auto', effect: 'schedule' },
   pathsInFlight: { type: 'integer', range: [1, 2 ** 30], effect: 'schedule' },
 } as const satisfies Table;
 

@@ -1,5 +1,6 @@
 import { inSlices, type Mesh, type Scene } from '@glanz/scene';
-import type { Geometry, MeshRegion } from '../geometry/geometry';
+import type { Geometry } from '../geometry/geometry';
+import type { MeshRegion } from '../geometry/hierarchy';
 import { lightGroupTable, type LightGroupTable } from '../lights/light-groups';
 import { LightIds, lightIndex } from '../lights/light-ids';
 import {

@@ -15,14 +15,13 @@ import {
   packInstances,
   shapeSlices,
   type Geometry,
-  type MeshRegion,
   type PackedGeometry,
   type PackedMesh,
 } from '../geometry/geometry';
-import { createYielder } from '../geometry/hierarchies';
 import type { LightGroupTable } from '../lights/light-groups';
 import type { LightIds } from '../lights/light-ids';
 import type { GatheredLights } from '../lights/lights';
+import type { MeshRegion } from '../geometry/hierarchy';
 import type { NodeRange } from '../geometry/placement';
 import type { TexturePlan } from '../materials/textures';
 import type { GpuMemory } from '../storage/buffers';
@@ -30,16 +29,15 @@ import { uploadEnergyTextures, type EnergyTextures } from '../materials/energy-t
 import { fillEnvironmentTextures, makeEnvironmentTextures } from '../environment/environment-textures';
 import { inErrorScopes, withErrorScopes } from '../device/error-scopes';
 import { SceneResources, type ResourceLog } from '../storage/scene-resources';
+import { uploadPace } from '../storage/upload-pace';
 import { uploadTextures } from '../materials/texture-upload';
 import { GpuLights } from './gpu-lights';
 import { GpuMaterials } from './gpu-materials';
 
-/** Milliseconds of writing shapes between two yields to the event loop. */
-const FILL_MS = 4;
+/** Milliseconds of gathering lights between two yields to the event loop. */
+const GATHER_MS = 4;
 /** Lights are written so many bytes at a time. */
 const FILL_BYTES = 1 << 20;
-/** So much may wait for the GPU's process. */
-const QUEUE_BYTES = 2 << 20;
 
 /** An instance before and after an edit. */
 export interface InstanceChange {
@@ -55,8 +53,6 @@ export interface InstanceChange {
  */
 export class GpuScene {
   readonly #device: GPUDevice;
-  /** Bytes written since the GPU's process was waited for. */
-  #waiting = 0;
   readonly #scene: Scene;
   #geometry: Geometry;
   readonly #choices: SceneChoices;
@@ -315,29 +311,27 @@ export class GpuScene {
 
   /** Writes the shapes, yielding to the event loop every few milliseconds. */
   async fill(signal?: AbortSignal): Promise<void> {
-    const yieldIfDue = createYielder(FILL_MS);
+    const pace = uploadPace(this.#device);
     const written: Promise<void>[] = [];
     this.#geometry.placement.takeChangedNodes();
+    const buffers = {
+      nodes: this.#resources.buffer('nodes') as GPUBuffer,
+      triangles: this.#resources.buffer('triangles') as GPUBuffer,
+      attributes: this.#resources.buffer('attributes') as GPUBuffer,
+    };
+    const { verified: placed } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
+      this.#geometry.blas.forEach((tree, i) => tree?.gpu?.place(buffers, this.#geometry.regions[i] as MeshRegion)),
+    );
+    written.push(placed);
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
       const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
         this.#resources.write(buffer, data, offset),
       );
       written.push(verified);
-      await this.#keepUp(data.byteLength, yieldIfDue);
+      await pace(data.byteLength);
       signal?.throwIfAborted();
     }
     await Promise.all(written);
-  }
-
-  /**
-   * Waits for the GPU's process now and then: where it is another one than the page's, what is written waits in a queue
-   * between them, and the page's thread would stand still once that is full.
-   */
-  async #keepUp(bytes: number, yieldIfDue: () => Promise<void>): Promise<void> {
-    this.#waiting += bytes;
-    if (this.#waiting < QUEUE_BYTES) return yieldIfDue();
-    this.#waiting = 0;
-    await this.#device.queue.onSubmittedWorkDone();
   }
 
   /**
@@ -346,22 +340,22 @@ export class GpuScene {
    * one go.
    */
   async light(environment: EnvironmentData, energy: EnergyTextures, gathered?: GatheredLights): Promise<void> {
-    const yieldIfDue = createYielder(FILL_MS);
+    const pace = uploadPace(this.#device);
     await withErrorScopes(this.#device, 'the environment', () => {
       this.#environment = environment;
       makeEnvironmentTextures(this.#resources, this.#environment);
       uploadEnergyTextures(this.#device.queue, this.#resources, energy);
     });
-    await yieldIfDue();
+    await pace(0);
     const written: Promise<void>[] = [];
     const slices = fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment);
     for (;;) {
       const { result: slice, verified } = inErrorScopes(this.#device, 'the environment', () => slices.next());
       written.push(verified);
       if (slice.done) break;
-      await this.#keepUp(slice.value, yieldIfDue);
+      await pace(slice.value);
     }
-    await this.#lights.gather(this.#geometry, gathered, FILL_MS);
+    await this.#lights.gather(this.#geometry, gathered, GATHER_MS);
     this.#features = undefined;
     const { records, count } = this.#lights.table;
     await withErrorScopes(this.#device, 'the lights of this scene', () => {
@@ -374,7 +368,7 @@ export class GpuScene {
         this.#resources.write('lights', new Uint8Array(records, at, bytes), at),
       );
       written.push(verified);
-      await this.#keepUp(bytes, yieldIfDue);
+      await pace(bytes);
     }
     await Promise.all(written);
   }

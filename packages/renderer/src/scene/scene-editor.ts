@@ -1,4 +1,3 @@
-import type { Blas } from '@glanz/bvh';
 import {
   createScene,
   validateScene,
@@ -21,9 +20,9 @@ import {
   packMesh,
   prepareHierarchies,
   type Geometry,
-  type MeshRegion,
 } from '../geometry/geometry';
-import type { HierarchyBuilder } from '../geometry/hierarchies';
+import type { HierarchyOptions } from '../geometry/hierarchies';
+import type { Hierarchy, MeshRegion } from '../geometry/hierarchy';
 import { emittedRadiance, findMaterial } from '../materials/materials';
 import { parametersOf } from '../materials/parameters';
 import { isShown } from '../geometry/placement';
@@ -58,22 +57,23 @@ const names = (list: readonly { readonly name: string }[]) => {
 export class SceneEditor {
   readonly scene: Scene;
   readonly #gpu: GpuScene;
-  readonly #hierarchies: HierarchyBuilder | undefined;
+  readonly #builders: HierarchyOptions;
   /** Materials that instances wear without a variant. */
   readonly #plain: number[];
   /** Hierarchies of meshes that are or were in the scene, so that a part that comes back costs nothing to build. */
-  readonly #trees = new WeakMap<Mesh, Blas>();
+  readonly #trees = new WeakMap<Mesh, Hierarchy>();
   /** Instances by name, which no edit changes; made at the first look-up by name. */
   #named: Map<string, number[]> | undefined;
   #geometry: Geometry;
   #version = 0;
   readonly #environment: EnvironmentEditor;
 
-  constructor(scene: Scene, geometry: Geometry, gpu: GpuScene, hierarchies: HierarchyBuilder | undefined) {
+  /** @param builders Build what edits bring. */
+  constructor(scene: Scene, geometry: Geometry, gpu: GpuScene, builders: HierarchyOptions) {
     this.scene = scene;
     this.#geometry = geometry;
     this.#gpu = gpu;
-    this.#hierarchies = hierarchies;
+    this.#builders = builders;
     this.#environment = new EnvironmentEditor(scene, gpu);
     this.#plain = scene.instances.map(({ material }) => material);
     this.#remember(scene, geometry.blas);
@@ -240,15 +240,24 @@ export class SceneEditor {
     };
   }
 
-  #blas(scene: Scene): (Blas | undefined)[] {
+  #blas(scene: Scene): (Hierarchy | undefined)[] {
     return scene.meshes.map((mesh) => this.#trees.get(mesh));
   }
 
+  /**
+   * Brings the hierarchies of a scene, with their nodes on the CPU: also those of the scene as it is, which an edit may
+   * have to write again.
+   */
   async #build(scene: Scene): Promise<void> {
-    this.#remember(scene, await prepareHierarchies(scene, { hierarchies: this.#hierarchies }, this.#blas(scene)));
+    this.#remember(scene, await prepareHierarchies(scene, this.#builders, this.#blas(scene)));
+    const load = async (mesh: Mesh) => {
+      const tree = this.#trees.get(mesh);
+      if (tree?.gpu) this.#trees.set(mesh, await tree.gpu.read());
+    };
+    await Promise.all([...new Set([...this.scene.meshes, ...scene.meshes])].map(load));
   }
 
-  #remember(scene: Scene, blas: readonly (Blas | undefined)[]): void {
+  #remember(scene: Scene, blas: readonly (Hierarchy | undefined)[]): void {
     scene.meshes.forEach((mesh, i) => {
       const tree = blas[i];
       if (tree) this.#trees.set(mesh, tree);

@@ -83,6 +83,11 @@ export class GpuMemory {
     return texture;
   }
 
+  /** Takes a buffer over that others have made. */
+  adopt(label: string, buffer: GPUBuffer): void {
+    this.#keep(buffer, label, buffer.size);
+  }
+
   /** Destroys one buffer or texture; unknown ones are ignored. */
   release(resource: GPUBuffer | GPUTexture | undefined): void {
     if (!resource) return;

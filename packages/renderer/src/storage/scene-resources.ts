@@ -1,6 +1,7 @@
 import type { ResourceName } from './resources';
 import {
   GPU_BUFFER_COPY_DST,
+  GPU_BUFFER_COPY_SRC,
   GPU_BUFFER_STORAGE,
   GPU_TEXTURE_BINDING,
   GPU_TEXTURE_COPY_DST,
@@ -47,7 +48,7 @@ export class SceneResources {
 
   /** Creates a storage buffer of this name and replaces the present one. */
   make(name: ResourceName, bytes: number): GPUBuffer {
-    const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST);
+    const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC);
     this.#replace(this.#buffers, name, buffer);
     return buffer;
   }

@@ -1,0 +1,184 @@
+import type { Blas } from '@glanz/bvh';
+import { blasInOrder, GpuBuilder } from '@glanz/bvh/gpu';
+import type { Mesh } from '@glanz/scene';
+import { inErrorScopes, lossOr, withErrorScopes } from '../device/error-scopes';
+import { DeviceError } from '../errors';
+import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE } from '../storage/buffers';
+import { readBuffer } from '../storage/read-buffer';
+import { uploadPace } from '../storage/upload-pace';
+import type { GpuBuilds, Hierarchy, HierarchyOnGpu, MeshRegion } from './hierarchy';
+
+/** Bytes of a node, of a packed triangle, and of a word of the attributes. */
+const NODE_BYTES = 64;
+const TRIANGLE_BYTES = 48;
+const WORD_BYTES = 4;
+
+/** Meshes that are uploaded or built at the same time: the GPU builds one while the next is written. */
+const LANES = 3;
+
+/** Bytes of a mesh that are written at once. */
+const SLICE_BYTES = 1 << 20;
+
+/** Errors of a GPU that cannot build a mesh which the CPU can. */
+const CPU_CAN = /^(bvh\/(limit|memory|pipeline|too-many)|renderer\/(limit|out-of-memory))$/;
+
+const cpuCan = (error: unknown) => CPU_CAN.test(String((error as { readonly code?: unknown }).code));
+
+/** One builder a device: its shaders are compiled once. */
+const builders = /* @__PURE__ */ new WeakMap<GPUDevice, Promise<GpuBuilder>>();
+
+/** The device's builder, which may still compile. */
+export function gpuBuilder(device: GPUDevice): Promise<GpuBuilder> {
+  let builder = builders.get(device);
+  if (!builder) {
+    builders.set(device, (builder = GpuBuilder.create(device)));
+    builder.catch(() => builders.delete(device));
+  }
+  return builder;
+}
+
+/** What {@link buildOnGpu} has built. */
+export interface GpuTrees {
+  /** In the order of the meshes; undefined for what this GPU cannot build, and the CPU can. */
+  readonly trees: readonly (Hierarchy | undefined)[];
+  /** Bytes that the builds took at most besides meshes and results; freed. */
+  readonly temporaryBytes: number;
+}
+
+/**
+ * Builds hierarchies on the GPU, and leaves them there. Their memory, and that of the meshes, is counted; it is freed
+ * where this fails.
+ *
+ * @throws {DeviceError} `renderer/device-lost`; the signal's reason.
+ */
+export async function buildOnGpu(
+  { device, memory }: GpuBuilds,
+  meshes: readonly Mesh[],
+  { signal, onProgress }: { readonly signal: AbortSignal; readonly onProgress: (done: number) => void },
+): Promise<GpuTrees> {
+  const trees: (Hierarchy | undefined)[] = [];
+  const total = meshes.reduce((sum, { indices }) => sum + indices.length, 0);
+  const pace = uploadPace(device);
+  let [done, temporaryBytes] = [0, 0];
+  let failed = false;
+  // Compiled while the first mesh is written.
+  const creating = gpuBuilder(device);
+  creating.catch(() => {});
+
+  const upload = async (label: string, data: Float32Array | Uint32Array): Promise<GPUBuffer> => {
+    const what = 'the meshes of this scene';
+    const buffer = await withErrorScopes(device, what, () =>
+      memory.buffer(label, data.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC),
+    );
+    const written: Promise<void>[] = [];
+    try {
+      for (let at = 0; at < data.byteLength; at += SLICE_BYTES) {
+        signal.throwIfAborted();
+        const bytes = Math.min(SLICE_BYTES, data.byteLength - at);
+        const slice = new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset + at, bytes);
+        written.push(inErrorScopes(device, what, () => memory.write(buffer, slice, at)).verified);
+        await pace(bytes);
+      }
+      await Promise.all(written);
+      return buffer;
+    } catch (error) {
+      memory.release(buffer);
+      throw error;
+    }
+  };
+
+  const build = async (mesh: Mesh): Promise<Hierarchy> => {
+    const own: GPUBuffer[] = [];
+    try {
+      const positions = await upload('build positions', mesh.positions);
+      own.push(positions);
+      const indices = await upload('build indices', mesh.indices);
+      own.push(indices);
+      const builder = await creating;
+      const built = await builder.buildBlas(
+        {
+          positions,
+          vertexCount: mesh.positions.length / 3,
+          indices,
+          triangleCount: mesh.indices.length / 3,
+        },
+        { packTriangles: true, signal },
+      );
+      temporaryBytes = Math.max(temporaryBytes, builder.memoryBytes);
+      const { nodes, triangleIndices: order, triangleCount, nodeCount, bounds } = built;
+      const triangles = built.triangles as GPUBuffer;
+      for (const buffer of [nodes, triangles, order]) memory.adopt('build result', buffer);
+      own.push(nodes, triangles, order);
+      // Lights name stored triangles, and queries on the CPU ask for them.
+      const triangleIndices = new Uint32Array(await readBuffer(device, order, order.size)).subarray(0, triangleCount);
+      signal.throwIfAborted();
+      for (const buffer of [positions, order]) memory.release(buffer);
+      const base = { nodeCount, triangleIndices, bounds };
+      return { ...base, gpu: onGpu({ device, memory }, mesh, base, { nodes, triangles, indices }) };
+    } catch (error) {
+      for (const buffer of own) memory.release(buffer);
+      throw error;
+    }
+  };
+
+  const next = meshes.entries();
+  const lane = async () => {
+    try {
+      for (const [i, mesh] of next) {
+        if (failed) return;
+        trees[i] = await build(mesh).catch((error: unknown) => {
+          if (signal.aborted || !cpuCan(error)) throw error;
+          return undefined;
+        });
+        onProgress((done += mesh.indices.length) / total);
+      }
+    } catch (error) {
+      failed = true;
+      throw error;
+    }
+  };
+  const lanes = await Promise.allSettled(Array.from({ length: LANES }, lane));
+  // A builder that could not be made has nothing to free.
+  await creating.then((builder) => builder.releaseMemory()).catch(() => {});
+  const fault = lanes.find((result) => result.status === 'rejected');
+  if (!fault) return { trees, temporaryBytes };
+  for (const tree of trees) tree?.gpu?.free();
+  const { reason } = fault as { readonly reason: unknown };
+  throw signal.aborted || reason instanceof DeviceError ? reason : await lossOr(device, reason as DeviceError);
+}
+
+/** A hierarchy that is on the GPU, in buffers of its own until it has its place. */
+function onGpu(
+  { device, memory }: Pick<GpuBuilds, 'device' | 'memory'>,
+  mesh: Mesh,
+  { triangleIndices, nodeCount, bounds }: Omit<Blas, 'nodes'>,
+  own: Readonly<Record<'nodes' | 'triangles' | 'indices', GPUBuffer>>,
+): HierarchyOnGpu {
+  let queries: Blas | undefined;
+  let placed: { readonly nodes: GPUBuffer; readonly offset: number } | undefined;
+  const free = () => {
+    for (const buffer of Object.values(own)) memory.release(buffer);
+  };
+  return {
+    place({ nodes, triangles, attributes }, { firstNode, firstTriangle, firstWord }: MeshRegion) {
+      const encoder = device.createCommandEncoder({ label: 'glanz place' });
+      const copy = (from: GPUBuffer, to: GPUBuffer, offset: number, bytes: number) =>
+        encoder.copyBufferToBuffer(from, 0, to, offset, bytes);
+      copy(own.nodes, nodes, NODE_BYTES * firstNode, NODE_BYTES * nodeCount);
+      copy(own.triangles, triangles, TRIANGLE_BYTES * firstTriangle, TRIANGLE_BYTES * triangleIndices.length);
+      // Indices are the first of a mesh's attributes.
+      copy(own.indices, attributes, WORD_BYTES * firstWord, mesh.indices.byteLength);
+      device.queue.submit([encoder.finish()]);
+      placed = { nodes, offset: NODE_BYTES * firstNode };
+      free();
+    },
+    async read() {
+      const { nodes, offset } = placed ?? { nodes: own.nodes, offset: 0 };
+      const data = await readBuffer(device, nodes, NODE_BYTES * nodeCount, offset);
+      if (!placed) free();
+      return { nodes: new Float32Array(data), nodeCount, triangleIndices, bounds };
+    },
+    forQueries: () => (queries ??= blasInOrder(mesh, triangleIndices)),
+    free,
+  };
+}
