@@ -1,6 +1,6 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { FILM_WEIGHTS, FilmDenoiser, type DenoisableTracer } from '../src/film/index';
+import { FILM_WEIGHTS, FilmDenoiser, type DenoisableTracer, type FilmDenoiserOptions } from '../src/film/index';
 import { blendTwin } from './film-twin';
 import { numbersFrom, randomNetwork } from './random-network';
 
@@ -20,7 +20,11 @@ function noisy(deviation: number, seed = 1): Float32Array<ArrayBuffer> {
 
 async function run(
   film: Float32Array<ArrayBuffer>,
-  { variance, blend = true }: { variance?: Float32Array<ArrayBuffer>; blend?: boolean } = {},
+  {
+    variance,
+    blend = true,
+    ...options
+  }: { variance?: Float32Array<ArrayBuffer>; blend?: boolean } & FilmDenoiserOptions = {},
 ) {
   const device = await testDevice();
   const buffer = (data: Float32Array<ArrayBuffer>) => {
@@ -35,7 +39,7 @@ async function run(
   const denoiser = await FilmDenoiser.create(
     device,
     { color: randomNetwork(9) },
-    { maxSubmitMs: 1000, storage: 'f32' },
+    { maxSubmitMs: 1000, storage: 'f32', ...options },
   );
   try {
     const denoised = await denoiser.read(await denoiser.denoise(images, { blend: false }));
@@ -106,6 +110,19 @@ describe('FilmDenoiser', () => {
     denoiser.destroy();
     const images = {} as unknown as Parameters<FilmDenoiser['denoise']>[0];
     await expect(denoiser.denoise(images)).rejects.toMatchObject({ code: 'denoise/destroyed' });
+  });
+
+  it('asks for the shape of each layer, and has the same bits with another', async () => {
+    const film = noisy(0.3);
+    const asked = new Set<string>();
+    const other = await run(film, {
+      shapeOf: (layer) => {
+        asked.add(layer.name);
+        return layer.name === 'enc_conv0' ? { threadsX: 2, threadsY: 2, rows: 2, outputs: 4 } : undefined;
+      },
+    });
+    expect(asked).toContain('enc_conv0');
+    expect(other.result).toEqual((await run(film)).result);
   });
 
   it('names archives for each quality', () => {

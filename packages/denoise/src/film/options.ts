@@ -1,4 +1,4 @@
-import type { DenoiseOptions, DenoiserStorage } from '../options';
+import type { DenoiseOptions, DenoiserOptions, DenoiserStorage } from '../options';
 
 /**
  * Which networks denoise a film.
@@ -27,6 +27,8 @@ export interface FilmDenoiserOptions {
   readonly maxMemory?: number;
   /** See `DenoiserOptions.maxSubmitMs`. */
   readonly maxSubmitMs?: number;
+  /** See `DenoiserOptions.shapeOf`: what `tuneShapes` of `@glanz/denoise/tune` found for this device. */
+  readonly shapeOf?: NonNullable<DenoiserOptions['shapeOf']>;
   /** Ends the creation with the signal's reason. */
   readonly signal?: AbortSignal | undefined;
 }

@@ -242,8 +242,8 @@ const familyOf = ({ groups: _, ...family }: KernelShape): KernelFamily => family
 
 /**
  * Measures on the device which shapes compute a network's layers fastest for images of a size: how threads share the work
- * of a layer. Results of a denoiser do not depend on shapes. By default they are chosen by a model of a large GPU, which
- * is a few percent slower than the best there, and can be further off on others.
+ * of a layer. Results of a denoiser do not depend on shapes. By default they are chosen by a model that is fitted to one
+ * large GPU (H100), and can be further from the best on others.
  *
  * Takes the memory of a denoiser for this size while it runs, and frees everything at its end. What it returns is plain
  * data: store it, by the adapter's description, and pass it to {@link shapesFrom}.
