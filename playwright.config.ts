@@ -21,8 +21,8 @@ export default defineConfig({
   outputDir: '.cache/playwright',
   globalSetup: fileURLToPath(new URL('tools/browser/src/run.ts', import.meta.url)),
   // The software GPU renders on all cores, but compiles each program on one, and pages are built, loaded and waited for
-  // in between: two at a time keep two cores busy.
-  workers: 2,
+  // in between: three at a time keep two cores busy.
+  workers: 3,
   timeout: 120_000,
   expect: { timeout: 60_000 },
   forbidOnly: true,

@@ -30,7 +30,7 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&max-depth=3', hash = '') =>
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&max-depth=3', hash = '') =>
   openAt(page, `${origin}/?${query}${hash}`);
 
 /** Two sails, the left one with a red look; a third node is a little one behind. */
@@ -245,7 +245,7 @@ test('light: studios, a soft box, backgrounds that are saved as they are seen, a
 }) => {
   // One pixel of the film to one of the screen, so that the saved image can be compared; not many of them.
   await page.setViewportSize({ width: 740, height: 340 });
-  await open(page, 'model=cornell-box&scale=1&samples=2&max-depth=2&environment=studio');
+  await open(page, 'model=cornell-box&scale=1&samples=1&max-depth=2&environment=studio');
   await finished(page);
   await tab(page, 'Light');
   // Beside the box there is the environment.
@@ -360,7 +360,7 @@ test('the floor catches the shadow only; the blurred background is smooth, and s
   page,
 }) => {
   // As in the test of light.
-  await page.setViewportSize({ width: 740, height: 420 });
+  await page.setViewportSize({ width: 740, height: 340 });
   await open(page, 'model=push-button-low&scale=1&samples=2&max-depth=2');
   await finished(page);
   await tab(page, 'Light');

@@ -37,15 +37,15 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=4&max-depth=3') =>
+const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&max-depth=3') =>
   openAt(page, `${origin}/?${query}`);
 
 test('the Cornell box appears: light above, red left, green right; the saved image is the one on the screen', async ({
   page,
 }) => {
   // One pixel of the film to one of the screen, so that they can be compared; not many of them.
-  await page.setViewportSize({ width: 740, height: 420 });
-  await open(page, 'model=cornell-box&scale=1&samples=3&max-depth=3');
+  await page.setViewportSize({ width: 740, height: 340 });
+  await open(page, 'model=cornell-box&scale=1&samples=2&max-depth=3');
   await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
   await finished(page);
   const shown = await photograph(canvasOf(page));
