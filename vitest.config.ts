@@ -112,8 +112,8 @@ export default defineConfig({
       ),
       project('playground', 'apps/playground'),
     ],
-    // One GPU process at a time on two cores keeps the software driver from starving itself.
-    maxWorkers: 2,
+    // Programs compile on one core and files load on one: three processes keep two cores busy.
+    maxWorkers: 3,
     fileParallelism: true,
     sequence: { sequencer: LongestFirst },
   },

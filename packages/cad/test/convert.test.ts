@@ -59,8 +59,9 @@ it('an assembly in three levels, with mapped materials and nothing of its origin
     expect(Math.abs(a.min[k] - b.min[k])).toBeLessThan(0.003);
     expect(Math.abs(a.max[k] - b.max[k])).toBeLessThan(0.003);
   }
-  // It stands: +Z of the file points up.
-  expect(a.max[1] - a.min[1]).toBeCloseTo(0.12, 1);
+  // It stands, +Z of the file points up: brackets of 60 mm on a plate of 20 mm, which is 150 mm wide along the file's Y.
+  expect(a.max[1]).toBeCloseTo(0.08, 4);
+  expect(a.max[2] - a.min[2]).toBeCloseTo(0.15, 4);
   // Normals are on the triangles' own side, however coarse they are.
   for (const { positions: P, normals: N, indices } of [...first!.meshes, ...last!.meshes]) {
     for (let t = 0; t < indices.length; t += 3) {

@@ -114,7 +114,8 @@ describe('subsurface', () => {
     transmitted.forEach((value, k) => {
       const color = p.transmission_color[k] as number;
       // Half is transparent and tinted; of the rest, 0.6 is subsurface.
-      expect((carried.subsurface[k] as number) / value).toBeCloseTo(0.3 / (0.3 + 0.5 * color), 1);
+      // Four standard errors of a share of 60,000 samples are 0.008; the furnace's quadrature is good to 0.01.
+      expect(Math.abs((carried.subsurface[k] as number) / value - 0.3 / (0.3 + 0.5 * color))).toBeLessThan(0.018);
       expect(Math.abs((carried.subsurface[k] as number) + (carried.interior[k] as number) - value)).toBeLessThan(0.01);
     });
   });

@@ -87,7 +87,7 @@ test('axis-aligned rays along the faces of boxes are safe', () => {
     [0, 0, 1],
     [-1, -0, 0],
   ])
-    expect(closestHit(blas, mesh, { origin: [0, 0, 0], direction })?.t).toBeCloseTo(1, 1);
+    expect(closestHit(blas, mesh, { origin: [0, 0, 0], direction })?.t).toBeCloseTo(1, 6);
 });
 
 test('no ray gets between boxes that touch along an edge, aimed at it to the last bit from close to a large mesh (seed 47)', () => {
