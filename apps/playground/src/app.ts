@@ -73,11 +73,11 @@ export class App {
     const app = new App();
     const link = (app.#link = await linkOfPage());
     app.#environments.expect(link?.files?.environment ?? '');
-    const { exposure, toneMap, samples, noise, layer } = { ...app.#store.state, ...app.#link?.state };
+    const { exposure, toneMap, samples, noise, layer, denoise } = { ...app.#store.state, ...app.#link?.state };
     app.#session = await Session.create(
       app.#canvas,
       byId<HTMLCanvasElement>('layer-image'),
-      { exposure, toneMap, samples, noise, layer },
+      { exposure, toneMap, samples, noise, layer, denoise },
       {
         step: (seconds) => app.#step(seconds),
         moving: () => app.#rig.moving,

@@ -48,6 +48,8 @@ export class Configurator {
   readonly #messages = new Messages(byId('messages'));
   readonly #form: OptionsForm;
   readonly #viewer: Viewer;
+  /** Whether images are denoised, and frames of a view that moves filtered. */
+  readonly #denoise: boolean;
   #configuration: Configuration;
   #shown: Assembly | undefined;
 
@@ -58,6 +60,7 @@ export class Configurator {
       this.choose({ ...this.#configuration, [feature]: code }, feature),
     );
     const scale = query.get('scale');
+    this.#denoise = query.get('denoise') !== 'off';
     this.#viewer = createViewer(this.#canvas, {
       samples: Math.round(number(query.get('samples'), ...LIMITS.samples, SAMPLES)),
       maxDepth: Math.round(
@@ -65,6 +68,7 @@ export class Configurator {
       ),
       environment: 'studio',
       background: 'transparent',
+      preview: this.#denoise ? 'auto' : 'raw',
       ...(scale === null ? {} : { pixelRatio: number(scale, 0.05, 2, 1) }),
     });
     byId('count').textContent = `One of ${new Intl.NumberFormat('en').format(combinations())} buttons.`;
@@ -85,8 +89,7 @@ export class Configurator {
     // Until there is something to see, the page says what it is doing.
     await page.#frame();
     page.#stage.dataset['ready'] = '';
-    if (new URLSearchParams(location.search).get('denoise') !== 'off')
-      page.#viewer.denoise = (await import('../viewer/denoise')).denoising;
+    if (page.#denoise) page.#viewer.denoise = (await import('../viewer/denoise')).denoising;
   }
 
   /** Shows another button and how long the change took. */

@@ -23,10 +23,11 @@ export const denoising = denoisingBy(async (device) => {
   return FilmDenoiser.create(device, { color });
 });
 
-/** Switches the denoiser of the playground's image on or off, as the state says by now. */
+/** Switches the denoiser of the playground's image and the filter of its previews on or off, as the state says by now. */
 export function applyDenoise({ session: { engine }, store, say }: Context): void {
   const { settings } = engine;
   const denoise = store.state.denoise ? denoising : undefined;
+  settings.previewMode = denoise ? 'auto' : 'raw';
   if (denoise === settings.denoise?.source) return;
   settings.denoise?.destroy();
   settings.denoise = denoise?.(

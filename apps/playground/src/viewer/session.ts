@@ -41,6 +41,12 @@ export interface SessionView extends Required<ToneMapOptions> {
   readonly layer: Layer;
 }
 
+/** A view, with what is set once. */
+export interface FirstView extends SessionView {
+  /** Whether frames of a view that moves are filtered where the GPU is fast enough. */
+  readonly denoise: boolean;
+}
+
 /** What a tracer is made from. */
 export interface Shown {
   readonly scene: Scene;
@@ -81,13 +87,13 @@ export class Session {
   private constructor(
     canvas: HTMLCanvasElement,
     layer: HTMLCanvasElement,
-    view: SessionView,
+    view: FirstView,
     camera: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
     events: SessionEvents,
   ) {
     this.#canvas = canvas;
     this.#events = events;
-    const { samples, noise, exposure, toneMap } = view;
+    const { samples, noise, exposure, toneMap, denoise } = view;
     this.#engine = new Engine(
       canvas,
       {
@@ -100,6 +106,7 @@ export class Session {
         maxSubmitMs: RENDER_OPTIONS.maxSubmitMs.default,
         settleMs: SETTLE_MS,
         previewDepth: PREVIEW_DEPTH,
+        previewMode: denoise ? 'auto' : 'raw',
         tracer: {},
         requestDevice: undefined,
       },
@@ -148,7 +155,7 @@ export class Session {
   static async create(
     canvas: HTMLCanvasElement,
     layer: HTMLCanvasElement,
-    view: SessionView,
+    view: FirstView,
     camera: Pick<EngineHost, 'step' | 'moving' | 'camera'>,
     events: SessionEvents,
   ): Promise<Session> {
