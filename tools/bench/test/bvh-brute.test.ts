@@ -6,7 +6,7 @@ import { BUILDERS } from '../src/benchmarks/bvh-brute';
 import { buildOnGpu } from '../src/bvh-brute/build-on-gpu';
 import { GpuTracer } from '../src/bvh-brute/gpu';
 import { Oracle } from '../src/bvh-brute/oracle';
-import { tryScenes } from '../src/bvh-brute/run';
+import { facing, tryScenes } from '../src/bvh-brute/run';
 
 let gpus: GpuTracer[];
 beforeAll(async () => {
@@ -121,4 +121,10 @@ describe('the oracle', () => {
     expect(high).toBe(Infinity);
     expect(ask(segment, 0.5, 0.01, 3, 0, 0, 0, -2, 1e30)).toEqual([Infinity, Infinity]);
   });
+});
+
+it('a triangle that is a point on the ray has no slack of its own, rather than none that is a number', () => {
+  const point = Float64Array.from({ length: 9 }, (_, i) => [1, 2, 3][i % 3]!);
+  const ray = Float32Array.of(1, 2, 5, 0, 0, 0, -1, 10);
+  expect(facing(point, 0, ray, 0, 1e-6)).toMatchObject({ edges: 0, tolerance: 0 });
 });

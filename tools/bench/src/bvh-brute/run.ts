@@ -187,7 +187,7 @@ function checkCpu(
  * A triangle as a ray sees it: the ray's distance from the edges, the cosine, and how far rounding of the edge
  * functions can move the hit along the triangle: far for one that looks thin.
  */
-function facing(
+export function facing(
   corners: Float64Array,
   at: number,
   rays: Float32Array,
@@ -230,7 +230,8 @@ function facing(
   return {
     edges,
     cosine: Math.abs(c[0]! * n[0] + c[1]! * n[1] + c[2]! * n[2]) / (Math.hypot(...c) || 1),
-    tolerance: Math.min(largest, ((reach + 2 ** -20 * largest) * largest ** 2) / area),
+    // A point on the ray is where it is.
+    tolerance: largest > 0 ? Math.min(largest, ((reach + 2 ** -20 * largest) * largest ** 2) / area) : 0,
   };
 }
 
