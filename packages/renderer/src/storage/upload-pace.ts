@@ -21,7 +21,7 @@ export function uploadPace(device: GPUDevice): (bytes: number) => Promise<void> 
     if (written >= WINDOW_BYTES) {
       written = 0;
       const reached = device.queue.onSubmittedWorkDone();
-      // A lost device is reported by the next wait, or by whoever looks after the device.
+      // A lost device is reported by the next wait, or by `check` after the stage.
       reached.catch(() => {});
       const waited = before;
       before = reached;
