@@ -23,6 +23,9 @@ import { oracle, type OraclePair, type OracleSetting } from './oracle/index';
 const KNOWN =
   /^(base_|specular_|transmission_|subsurface_|coat_|fuzz_|thin_film_|emission_|geometry_opacity$|geometry_tangent$|geometry_thin_walled$|exterior_ior$)/;
 
+/** Of the quadratures of albedos: with 32 they differ from those with 40 by at most 0.15 of what is allowed. */
+const STEPS = process.env['GLANZ_FULL'] === undefined ? 32 : 40;
+
 /** The oracle's albedo disagrees with the specification's text here, and its notes say to follow the text. */
 const FOLLOWS_TEXT_INSTEAD = ['eon_half_weight'];
 
@@ -380,8 +383,8 @@ describe('against an independent implementation', () => {
           const wo = mu > 0 ? turn(direction(mu, azimuth)) : over(turn(direction(mu, azimuth)));
           for (const { p, channels } of surfacesOf(setting)) {
             const ours = clear
-              ? sphereFurnace(p, wo, side, 40)
-              : { reflected: furnace(p, wo, side, 40).albedo, transmitted: [0, 0, 0] };
+              ? sphereFurnace(p, wo, side, STEPS)
+              : { reflected: furnace(p, wo, side, STEPS).albedo, transmitted: [0, 0, 0] };
             const deltas = deltaParts(p, wo, side);
             const transmitted = ours.transmitted.map((value, i) => value + (deltas.transmitted[i] as number));
             const spread = DARKER_AT_HORIZON.includes(setting.id)
