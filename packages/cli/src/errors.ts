@@ -4,7 +4,7 @@ import { visible } from './visible';
 /**
  * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
  * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (a batch
- * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be merged), `cli/gpu-lost` (a GPU that is gone for
+ * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be merged), `cli/gpu-isolation` (GPUs of one name that cannot be distinguished), `cli/gpu-lost` (a GPU that is gone for
  * good), `cli/farm` (a job that this version cannot do), `cli/missing-package` (an optional package is needed), `cli/port` (a port that cannot be used).
  */
 export class CliError extends GlanzError {}
@@ -34,6 +34,7 @@ const GPU_CODES = new Set([
   'renderer/gpu-not-found',
   'renderer/device-lost',
   'cli/gpu-lost',
+  'cli/gpu-isolation',
 ]);
 
 /** The exit code that belongs to an error. */

@@ -1,11 +1,10 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
-import { gpusOf } from '../src/commands/farm/work';
 import { FarmPlan, type PlannedImage } from '../src/farm/plan';
 import { modelFiles } from '../src/farm/model-files';
 import { FolderStore } from '@glanz/farm';
-import { fakeBackend, FAKE_GPUS, run, temporaryFolder } from './fakes';
+import { run, temporaryFolder } from './fakes';
 import { makeGlb } from './glb';
 
 async function plan(cwd: string, options: { split?: number; outputRoot?: string; values?: object } = {}) {
@@ -145,14 +144,5 @@ describe('the command line', () => {
     expect(JSON.parse(first.out)).toMatchObject({ ok: true, total: 1, skipped: 0 });
     const second = await run(['farm', 'submit', 'b.json', '--json'], cwd);
     expect(JSON.parse(second.out)).toMatchObject({ ok: true, total: 1, skipped: 1 });
-  });
-
-  it('--gpu all: those that are no software; two of one name are refused', async () => {
-    expect(await gpusOf([], fakeBackend().backend)).toEqual([undefined]);
-    expect(await gpusOf(['all'], fakeBackend().backend)).toEqual(['Fake 3000']);
-    const twins = fakeBackend({ listGpus: async () => [FAKE_GPUS[0]!, FAKE_GPUS[0]!] });
-    await expect(gpusOf(['all'], twins.backend)).rejects.toThrow(/two GPUs are called "Fake 3000"/);
-    const none = fakeBackend({ listGpus: async () => [FAKE_GPUS[1]!] });
-    await expect(gpusOf(['all'], none.backend)).rejects.toMatchObject({ code: 'renderer/no-adapter' });
   });
 });

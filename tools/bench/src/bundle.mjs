@@ -19,8 +19,14 @@ export function benchmarkNames() {
  * Bundles one benchmark with its runner into one ESM file, straight from the sources of the workspace. `webgpu` stays
  * outside: it is a native module, and GPU_WEBGPU may name another copy at run time.
  */
-export function bundleBenchmark(name, outfile) {
-  return bundle(
+export async function bundleBenchmark(name, outfile) {
+  // It starts the command as a process of its own, from beside its file.
+  if (name === 'farm-gpus')
+    await bundle(
+      "import { runCli } from '@glanz/cli';\nprocess.exitCode = await runCli(process.argv.slice(2));\n",
+      join(dirname(outfile), 'glanz.js'),
+    );
+  await bundle(
     `import { benchmark } from './benchmarks/${name}';\nimport { benchmarkMain } from './runner';\nawait benchmarkMain(${JSON.stringify(name)}, benchmark, process.argv.slice(2));\n`,
     outfile,
     name === 'hashes' ? [observedWgsl] : [],

@@ -1,5 +1,6 @@
 import type { Backend } from '../backend';
 import { EXIT } from '../errors';
+import { numbered } from '../gpus/choose-gpus';
 import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
 import { jsonLine, visible } from '../visible';
@@ -12,10 +13,12 @@ export async function listGpusCommand(report: ReportOptions, io: CliIo, backend:
     io.stderr(
       'glanz: There is no GPU, nor a software one: install a Vulkan driver, Mesa 25 or newer, or the npm package @sparticuz/chromium (Linux x64). [renderer/no-adapter]\n',
     );
-  else
-    for (const { name, backend: api, driver, software } of gpus)
+  else {
+    const labels = numbered(gpus.map(({ name }) => name));
+    for (const [i, { backend: api, driver, software }] of gpus.entries())
       io.stdout(
-        `${visible(`${name} · ${api}${driver ? ` · ${driver}` : ''}${software ? ' · on the processor' : ''}`)}\n`,
+        `${visible(`${labels[i]} · ${api}${driver ? ` · ${driver}` : ''}${software ? ' · on the processor' : ''}`)}\n`,
       );
+  }
   return gpus.length > 0 ? EXIT.ok : EXIT.gpu;
 }

@@ -4,6 +4,7 @@ import { GlanzError } from '@glanz/scene';
 import type { Backend } from '../backend';
 import { CliError, describeError, EXIT, exitCodeOf } from '../errors';
 import type { CliIo } from '../io';
+import type { RenderedImage } from '../output/image';
 import { writeImage, isImage } from '../output/write';
 import { ProgressReporter, type SampleProgress } from '../progress';
 import { writeFilmFile } from '../render/film-file';
@@ -81,11 +82,11 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     const paths = parts.map((id) => join(store.resultFolder(id), outputName(0, { format: 'film' })));
     const { film, settings } = await readFilms(paths, io.cwd, backend);
     const { options, outputs } = await shotOf(payload, store, folder, undefined);
-    const image = await imageOfFilm(film, backend);
+    const image = outputs.some(isImage) ? await imageOfFilm(film, backend) : undefined;
     const display = { ...options, transparent: options.settings.background === 'transparent' };
     const codec = () => backend.filmCodec();
     for (const target of outputs) {
-      if (isImage(target)) await writeImage(image, target, display, io.cwd);
+      if (isImage(target)) await writeImage(image as RenderedImage, target, display, io.cwd);
       else
         await writeFilmFile(
           target.path,

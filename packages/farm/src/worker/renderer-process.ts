@@ -1,4 +1,4 @@
-import { fork, type ChildProcess } from 'node:child_process';
+import { spawn, type ChildProcess } from 'node:child_process';
 import { FarmError } from '../error';
 import type { FarmJob } from '../job';
 
@@ -53,6 +53,8 @@ export interface RendererProcessOptions {
   /** The script that renders, and its arguments. */
   readonly script: string;
   readonly args: readonly string[];
+  /** Written before the command, such as `['nice']`. It must become the command, with its streams. Default: nothing. */
+  readonly prefix?: readonly string[] | undefined;
   readonly env?: Readonly<Record<string, string | undefined>> | undefined;
   /** Milliseconds without a message after which it counts as hung and is killed. Default: ten minutes. */
   readonly hangMs?: number | undefined;
@@ -149,12 +151,12 @@ export class RendererProcess {
 
   #started(): ChildProcess {
     if (this.#child?.connected) return this.#child;
-    const { script, args, env } = this.#options;
-    const child = fork(script, [...args], {
+    const { script, args, prefix = [], env } = this.#options;
+    // Without execArgv: flags of a debugger or a test runner are not for it.
+    const [program, ...rest] = [...prefix, process.execPath, script, ...args];
+    const child = spawn(program as string, rest, {
       stdio: ['ignore', 'pipe', 'pipe', 'ipc'],
       env: { ...process.env, ...env },
-      // Flags of a debugger or a test runner are not for it.
-      execArgv: [],
     });
     const append = (chunk: Buffer) => void (this.#printed = (this.#printed + chunk.toString()).slice(-KEPT));
     child.stdout?.on('data', append);

@@ -28,6 +28,19 @@ function composeBeauty({ width, height, lightPasses, weights: { last }, sums }: 
   const stride = 4 * width * height;
   const out = new Float32Array(stride);
   const { film_total: total, film_block: block, film_moment: moment } = sums;
+  if (lightPasses === groups) {
+    // Without catchers, and without objects for each pixel: films have tens of millions.
+    for (let i = 0; i < stride; i++) {
+      const count = moment[i | 3] as number;
+      if (count === 0) continue;
+      const c = i & 3;
+      let sum = 0;
+      for (let pass = 0, j = i; pass < groups; pass++, j += stride)
+        sum += (c < 3 ? (last[pass]?.[c] as number) : 1) * ((total[j] as number) + (block[j] as number));
+      out[i] = sum / count;
+    }
+    return out;
+  }
   for (let at = 0; at < stride; at += 4) {
     const count = moment[at + 3] as number;
     if (count === 0) continue;

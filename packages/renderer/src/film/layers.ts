@@ -44,10 +44,8 @@ export function varianceLayer(
     const chunks = Math.floor(Math.max(0, samples - partSamples) / FILM_CHUNK);
     for (let c = 0; c < 3; c++) {
       let sum = 0;
-      weights.forEach((weight, pass) => {
-        const i = pass * moment.length + at + c;
-        sum += (weight[c] as number) * ((total[i] as number) - (partSums?.[i] ?? 0));
-      });
+      for (let pass = 0, i = at + c; pass < weights.length; pass++, i += moment.length)
+        sum += (weights[pass]?.[c] as number) * ((total[i] as number) - (partSums?.[i] ?? 0));
       const mean = sum / (chunks * FILM_CHUNK);
       out[at + c] =
         chunks < 2

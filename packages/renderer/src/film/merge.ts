@@ -34,7 +34,7 @@ export function mergeFilmStates(films: readonly FilmState[]): FilmState {
   const end = (ranges.at(-1) as readonly [number, number])[1];
   const total = added(sorted.map(({ sums }) => sums.film_total));
   const moment = added(sorted.map(({ sums }) => sums.film_moment));
-  let block: Float64Array = new Float64Array(total.length);
+  let block: Float64Array | undefined;
   const parts: FilmPart[] = [];
   for (const [chunk, { inTotal, inBlocks }] of [...partsOf(sorted)].sort(([a], [b]) => a - b)) {
     const sums = added([...inTotal, ...inBlocks]);
@@ -44,7 +44,7 @@ export function mergeFilmStates(films: readonly FilmState[]): FilmState {
       continue;
     }
     for (const part of inBlocks) addTo(total, part);
-    if (samples < FILM_CHUNK) parts.push({ chunk, sums: Float32Array.from(sums) });
+    if (samples < FILM_CHUNK) parts.push({ chunk, sums: new Float32Array(sums) });
     else addMoment(moment, sums, model);
   }
   const samples = ranges.reduce((sum, [first, last]) => sum + last - first, 0);
@@ -62,9 +62,10 @@ export function mergeFilmStates(films: readonly FilmState[]): FilmState {
       until: 0,
     },
     sums: {
-      film_block: Float32Array.from(block),
-      film_total: Float32Array.from(total),
-      film_moment: Float32Array.from(moment),
+      // Not `Float32Array.from`, which takes fifty times as long for large films.
+      film_block: block ? new Float32Array(block) : new Float32Array(total.length),
+      film_total: new Float32Array(total),
+      film_moment: new Float32Array(moment),
       beauty: model.sums.beauty,
     },
   };

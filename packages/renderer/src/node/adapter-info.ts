@@ -25,12 +25,10 @@ export function lavapipeVersion(info: GPUAdapterInfo): number | undefined {
 /** Dawn's message when no adapter has the requested name: one line for each adapter. */
 const LISTED = /backend: '([^']*)', name: '(.*)'$/;
 
-/** Reads the adapters out of the message that Dawn gives for an unknown name. */
+/** Reads the adapters out of the message that Dawn gives for an unknown name. Two GPUs may have the same. */
 export function parseAdapterList(message: string): { readonly backend: string; readonly name: string }[] {
-  const found = new Map<string, { backend: string; name: string }>();
-  for (const line of message.split('\n')) {
+  return message.split('\n').flatMap((line) => {
     const match = LISTED.exec(line.trim());
-    if (match) found.set(`${match[1]}/${match[2]}`, { backend: match[1] as string, name: match[2] as string });
-  }
-  return [...found.values()];
+    return match ? [{ backend: match[1] as string, name: match[2] as string }] : [];
+  });
 }

@@ -17,7 +17,10 @@ import {
 
 /** Options for {@link createGpu}. */
 export interface GpuOptions {
-  /** Part of the name of the adapter to use, ignoring case; see {@link listGpus}. Default: the fastest there is. */
+  /**
+   * Part of the name of the adapter to use, ignoring case; see {@link listGpus}. Default: the fastest there is. Of several
+   * adapters with one name it is the first that the process sees.
+   */
   readonly gpu?: string;
   /**
    * Whether to use a software adapter: `auto`, the default, takes one if there is no GPU; `only` always does, for
@@ -86,9 +89,9 @@ async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | st
   if (requested !== undefined || options.software === 'only') {
     const listed = await listAdapters(dawn);
     if (listed.length === 0) return 'no adapter';
-    names = listed
-      .filter((adapter) => requested === undefined || adapter.name.toLowerCase().includes(requested))
-      .map((adapter) => adapter.name);
+    const matching = listed.filter(({ name }) => requested === undefined || name.toLowerCase().includes(requested));
+    // Of several with one name, Dawn takes the first.
+    names = [...new Set(matching.map(({ name }) => name))];
     if (names.length === 0) return `only ${listed.map((adapter) => `"${adapter.name}"`).join(', ')}`;
   }
   let reason = 'no adapter';
@@ -205,7 +208,7 @@ async function describe(dawn: Dawn): Promise<GpuDescription[]> {
 
 /**
  * Lists the adapters that {@link createGpu} can choose from: those of the installed drivers, and the software GPU that
- * it would fall back to.
+ * it would fall back to. Equal GPUs are listed one by one, under one name.
  *
  * @throws {DeviceError} `renderer/no-webgpu` when Dawn is missing. No adapter at all gives an empty list.
  */

@@ -12,13 +12,14 @@ const info = (fields: Partial<GPUAdapterInfo>) =>
   }) as GPUAdapterInfo;
 
 describe('adapter information', () => {
-  it('reads the adapters out of the message for an unknown name, each once', () => {
+  it('reads the adapters out of the message for an unknown name, equal ones too', () => {
     const message = `no suitable backends found
 Available adapters:
  * backend: 'vulkan', name: 'NVIDIA H200'
  * backend: 'vulkan', name: 'NVIDIA H200'
  * backend: 'vulkan', name: 'llvmpipe (LLVM 15.0.6, 256 bits)'`;
     expect(parseAdapterList(message)).toEqual([
+      { backend: 'vulkan', name: 'NVIDIA H200' },
       { backend: 'vulkan', name: 'NVIDIA H200' },
       { backend: 'vulkan', name: 'llvmpipe (LLVM 15.0.6, 256 bits)' },
     ]);

@@ -3,7 +3,9 @@ import { resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { FolderStore, startFarmWorker, type FarmWorker, type WorkerEvent } from '@glanz/farm';
 import type { Backend } from '../../backend';
-import { CliError, EXIT } from '../../errors';
+import { EXIT } from '../../errors';
+import { chooseGpus } from '../../gpus/choose-gpus';
+import { checkHiding, hiding } from '../../gpus/hidden-files';
 import type { CliIo } from '../../io';
 import type { ProgressReporter } from '../../progress';
 import { jsonLine } from '../../visible';
@@ -16,26 +18,6 @@ const LOOK_MS = 500;
 function program(): string {
   const beside = fileURLToPath(new URL('./glanz.js', import.meta.url));
   return existsSync(beside) ? beside : (process.argv[1] as string);
-}
-
-/**
- * The GPUs that `--gpu` names; `all` stands for those that are no software.
- *
- * @throws {CliError} `cli/usage` for two of one name, which it cannot distinguish
- */
-export async function gpusOf(names: readonly string[], backend: Backend): Promise<(string | undefined)[]> {
-  if (names.length === 0) return [undefined];
-  if (!names.includes('all')) return [...names];
-  const found = (await backend.listGpus()).filter(({ software }) => !software).map(({ name }) => name);
-  if (found.length === 0)
-    throw new CliError('renderer/no-adapter', '--gpu all: there is no GPU. See glanz --list-gpus.');
-  const twice = found.find((name, i) => found.indexOf(name) !== i);
-  if (twice !== undefined)
-    throw new CliError(
-      'cli/usage',
-      `--gpu all: two GPUs are called "${twice}", and GPUs are chosen by name. Start one glanz farm work for each, in a container that sees that GPU alone: docker run --gpus device=0 and so on.`,
-    );
-  return found;
 }
 
 const EVENTS = {
@@ -57,7 +39,8 @@ export async function workCommand(
   progress: ProgressReporter,
 ): Promise<number> {
   const { redis, queue, lock, outputRoot, untilEmpty, json } = command;
-  const gpus = await gpusOf(command.gpus, backend);
+  const gpus = await chooseGpus(command.gpus, backend);
+  for (const { hidden } of gpus) await checkHiding(hidden);
   const store = new FolderStore(resolve(io.cwd, command.store));
   const counts = { done: 0, failed: 0 };
   let lastRedis = '';
@@ -76,14 +59,18 @@ export async function workCommand(
     stop.abort();
   });
   try {
-    for (const gpu of gpus)
+    for (const { name: gpu, label, hidden } of gpus)
       workers.push(
         await startFarmWorker({
           redis: redis as string,
           name: queue,
           store,
-          renderer: { script: program(), args: ['farm', 'renderer', ...(gpu === undefined ? [] : ['--gpu', gpu])] },
-          gpu,
+          renderer: {
+            script: program(),
+            args: ['farm', 'renderer', ...(gpu === undefined ? [] : ['--gpu', gpu])],
+            prefix: hiding(hidden),
+          },
+          gpu: label,
           ...(outputRoot === undefined ? {} : { outputRoot: resolve(io.cwd, outputRoot) }),
           ...(lock === undefined ? {} : { lockMs: 1000 * lock, beatMs: Math.min(5000, 250 * lock) }),
           onEvent,
