@@ -56,6 +56,7 @@ const COMMANDS = {
   glanz farm task BATCH [--image N] [...]
   glanz farm serve --redis URL [--port N] [--host NAME]
   glanz farm submit BATCH --openjd FILE [...]
+  glanz farm clean --older-than 30d [--store DIR]
 
   submit queues the images of a batch file, and work renders them, on any
   number of machines that see the store's folder. An image has an identity by
@@ -72,8 +73,12 @@ const COMMANDS = {
                         Default: that of the batch. work: the same folder where
                         this machine sees it under another name.
       --split N         Images with more samples than N become several jobs,
-                        whose films are added up as glanz merge does.
+                        whose films are added up as glanz merge does, and then
+                        denoised where --denoise asks for it. Not with --noise.
       --gpu NAME        work: a worker for each; "all" for each that there is.
+                        Of several with one name "NAME #2" is the second; each
+                        worker then sees its own alone, which needs root or
+                        user namespaces.
       --until-empty     work: end when the queue is empty.
       --lock S          work: S seconds after a worker was killed its job goes
                         to another one. Default 30.
@@ -85,6 +90,8 @@ const COMMANDS = {
                         whose tasks are glanz farm task, and queue nothing.
       --port N          serve: a read-only page about the farm. Default 4180;
       --host NAME       ... 127.0.0.1: nobody else can reach it.
+      --older-than AGE  clean: delete what the store has that was not used for
+                        so long: 30d, 12h, 90m.
       --manifest FILE   manifest: JSON of the images that are finished, in the
                         order of the batch; the exit status is 1 while some are
                         missing.

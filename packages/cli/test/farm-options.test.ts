@@ -1,10 +1,12 @@
-import { writeFileSync } from 'node:fs';
+import { utimesSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
+import type { BlasCache } from '@glanz/bvh/cache';
+import { farmRenderer } from '../src/farm/job-renderer';
 import { FarmPlan, type PlannedImage } from '../src/farm/plan';
 import { modelFiles } from '../src/farm/model-files';
 import { FolderStore } from '@glanz/farm';
-import { run, temporaryFolder } from './fakes';
+import { fakeBackend, fakeIo, run, temporaryFolder } from './fakes';
 import { makeGlb } from './glb';
 
 async function plan(cwd: string, options: { split?: number; outputRoot?: string; values?: object } = {}) {
@@ -69,6 +71,8 @@ describe('identity of jobs', () => {
     const { images: whole, warnings } = await plan(cwd, { split: 40, values: { noise: '0.1' } });
     expect(whole[0]!.requests.length).toBe(1);
     expect(warnings.join()).toContain('are not split');
+    const { images: denoised } = await plan(cwd, { split: 40, values: { denoise: 'fast' } });
+    expect(denoised[0]!.requests.length).toBe(3);
   });
 });
 
@@ -144,5 +148,48 @@ describe('the command line', () => {
     expect(JSON.parse(first.out)).toMatchObject({ ok: true, total: 1, skipped: 0 });
     const second = await run(['farm', 'submit', 'b.json', '--json'], cwd);
     expect(JSON.parse(second.out)).toMatchObject({ ok: true, total: 1, skipped: 1 });
+  });
+
+  it('clean deletes what is old, and needs to be told how old', async () => {
+    const cwd = withBatch([{ model: 'm.glb', output: 'a.png' }]);
+    const store = new FolderStore(join(cwd, '.glanz-farm'));
+    const hash = await store.put('content');
+    utimesSync(store.objectPath(hash), new Date(0), new Date(0));
+    const { out } = await run(['farm', 'clean', '--older-than', '30d', '--json'], cwd);
+    expect(JSON.parse(out)).toEqual({ ok: true, entries: 1, bytes: 7 });
+    for (const args of [[], ['--older-than', '30'], ['--older-than', '1y'], ['x', '--older-than', '1d']])
+      expect((await run(['farm', 'clean', ...args], cwd)).code).toBe(2);
+  });
+
+  it('a renderer reads the hierarchies that another one has built', async () => {
+    const cwd = withBatch([{ model: 'm.glb', samples: 2, output: 'a.png' }]);
+    const { images } = await plan(cwd);
+    const { job } = images[0]!.requests[0]!;
+    const store = new FolderStore(join(cwd, 'store'));
+    const positions = Float32Array.from({ length: 9 * 20_000 }, (_, i) => Math.sin(i * i));
+    const mesh = { positions, indices: Uint32Array.from({ length: 3 * 20_000 }, (_, i) => i) };
+    const caches: BlasCache[] = [];
+    const built: Uint32Array[] = [];
+    for (let i = 0; i < 2; i++) {
+      const { backend, created } = fakeBackend();
+      const renderer = farmRenderer(fakeIo(cwd), backend, undefined);
+      const message = {
+        type: 'job' as const,
+        job,
+        store: store.folder,
+        folder: await store.begin(job.id),
+        checkpoint: await store.checkpoint(job.id),
+      };
+      expect(await renderer.render(message, new AbortController().signal, () => undefined)).toBeDefined();
+      const cache = created[0]!.options.hierarchies as BlasCache;
+      built.push(new Uint32Array((await cache.buildBlas(mesh)).nodes.buffer));
+      await cache.written();
+      caches.push(cache);
+    }
+    expect(caches.map(({ hits, misses }) => [hits, misses])).toEqual([
+      [0, 1],
+      [1, 0],
+    ]);
+    expect(built[1]).toEqual(built[0]);
   });
 });

@@ -1,5 +1,14 @@
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import {
+  existsSync,
+  mkdirSync,
+  readFileSync,
+  readdirSync,
+  rmSync,
+  symlinkSync,
+  utimesSync,
+  writeFileSync,
+} from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, it } from 'vitest';
 import { contentId, FolderStore } from '../src/index';
@@ -105,4 +114,39 @@ it('identity depends on content alone', () => {
     createHash('sha256').update('{"a":"é","b":2}', 'utf8').digest('hex').slice(0, 40),
   );
   expect(new Set([{ a: 1 }, { a: '1' }, { a: null }, {}, [], [1], { b: 1 }, { a: [1] }].map(contentId)).size).toBe(8);
+});
+
+describe('hierarchies and cleaning', () => {
+  const KEY = 'ab'.repeat(32);
+
+  it('keeps hierarchies under their keys, the first one', async () => {
+    const { hierarchies, folder } = new FolderStore(temporaryFolder());
+    expect(await hierarchies.get(KEY)).toBeUndefined();
+    await hierarchies.set(KEY, Uint8Array.of(1, 2, 3).buffer);
+    await hierarchies.set(KEY, Uint8Array.of(4).buffer);
+    expect([...(await hierarchies.get(KEY))!]).toEqual([1, 2, 3]);
+    expect(existsSync(join(folder, 'hierarchies/ab', KEY))).toBe(true);
+    await expect(hierarchies.get('../../x')).rejects.toMatchObject({ code: 'farm/store' });
+  });
+
+  it('deletes what was not used for some time, and keeps what was', async () => {
+    const store = await withResult('result');
+    const [old, kept] = [await store.put('old'), await store.put('kept')];
+    await store.hierarchies.set(KEY, new ArrayBuffer(5));
+    const day = 86_400_000;
+    const now = Date.now();
+    const ago = new Date(now - 40 * day);
+    for (const path of [store.objectPath(old), store.objectPath(kept), store.resultFolder(ID)])
+      utimesSync(path, ago, ago);
+    expect(await store.clean(50 * day)).toEqual({ entries: 0, bytes: 0 });
+    // Submitting it again is a use.
+    expect(await store.put('kept')).toBe(kept);
+    const { entries, bytes } = await store.clean(30 * day);
+    expect([entries, bytes > 'oldresult'.length]).toEqual([2, true]);
+    expect(await store.result(ID)).toBeUndefined();
+    expect(existsSync(store.objectPath(old))).toBe(false);
+    expect(Buffer.from(await store.read(kept)).toString()).toBe('kept');
+    expect(await store.clean(30 * day, now + 31 * day)).toMatchObject({ entries: 2 });
+    expect(await store.hierarchies.get(KEY)).toBeUndefined();
+  });
 });

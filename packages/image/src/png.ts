@@ -36,17 +36,35 @@ function chunk(type: string, data: Uint8Array, table: Uint32Array): Uint8Array {
   return out;
 }
 
-/** The five filters of PNG; `a` left, `b` above, `c` above left. */
-function predict(filter: number, a: number, b: number, c: number): number {
-  if (filter === 0) return 0;
-  if (filter === 1) return a;
-  if (filter === 2) return b;
-  if (filter === 3) return (a + b) >> 1;
+/** The nearest of left, above and above left to their plane; in this order where they are as near. */
+function paeth(a: number, b: number, c: number): number {
   const pa = Math.abs(b - c);
   const pb = Math.abs(a - c);
   const pc = Math.abs(a + b - 2 * c);
   return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
+
+/**
+ * The five filters of PNG, each in a loop of its own: images have tens of millions of bytes. Rows lie behind `left`
+ * zeros, the bytes of a pixel.
+ */
+const FILTERS: readonly ((out: Uint8Array, row: Uint8Array, above: Uint8Array, left: number) => void)[] = [
+  (out, row, _, left) => out.set(row.subarray(left)),
+  (out, row, _, left) => {
+    for (let i = 0; i < out.length; i++) out[i] = (row[i + left] as number) - (row[i] as number);
+  },
+  (out, row, above, left) => {
+    for (let i = 0; i < out.length; i++) out[i] = (row[i + left] as number) - (above[i + left] as number);
+  },
+  (out, row, above, left) => {
+    for (let i = 0; i < out.length; i++)
+      out[i] = (row[i + left] as number) - (((row[i] as number) + (above[i + left] as number)) >> 1);
+  },
+  (out, row, above, left) => {
+    for (let i = 0; i < out.length; i++)
+      out[i] = (row[i + left] as number) - paeth(row[i] as number, above[i + left] as number, above[i] as number);
+  },
+];
 
 /**
  * Filters every row with the filter of the smallest sum of absolute differences, the heuristic of the PNG
@@ -55,17 +73,16 @@ function predict(filter: number, a: number, b: number, c: number): number {
 function filterRows(raw: Uint8Array, height: number, rowBytes: number, pixelBytes: number): Uint8Array {
   const out = new Uint8Array((rowBytes + 1) * height);
   const trial = new Uint8Array(rowBytes);
+  let row = new Uint8Array(pixelBytes + rowBytes);
+  let above = new Uint8Array(pixelBytes + rowBytes);
   for (let y = 0; y < height; y++) {
-    const row = y * rowBytes;
+    row.set(raw.subarray(y * rowBytes, (y + 1) * rowBytes), pixelBytes);
     let best = Infinity;
-    for (let filter = 0; filter < 5; filter++) {
+    for (const [filter, apply] of FILTERS.entries()) {
+      apply(trial, row, above, pixelBytes);
       let sum = 0;
       for (let i = 0; i < rowBytes; i++) {
-        const a = i >= pixelBytes ? (raw[row + i - pixelBytes] as number) : 0;
-        const b = y > 0 ? (raw[row + i - rowBytes] as number) : 0;
-        const c = i >= pixelBytes && y > 0 ? (raw[row + i - rowBytes - pixelBytes] as number) : 0;
-        const v = ((raw[row + i] as number) - predict(filter, a, b, c)) & 255;
-        trial[i] = v;
+        const v = trial[i] as number;
         sum += v < 128 ? v : 256 - v;
       }
       if (sum < best) {
@@ -74,6 +91,7 @@ function filterRows(raw: Uint8Array, height: number, rowBytes: number, pixelByte
         out.set(trial, y * (rowBytes + 1) + 1);
       }
     }
+    [row, above] = [above, row];
   }
   return out;
 }

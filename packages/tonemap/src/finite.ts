@@ -14,7 +14,8 @@ export const tonemapFinite: WgslModule = finiteModule;
 
 /** A function of one number for each component. */
 export function mapRgb(rgb: Rgb, f: (v: number) => number): [number, number, number] {
-  return rgb.map(f) as [number, number, number];
+  // Not `rgb.map`, which takes three times as long for an image.
+  return [f(rgb[0]), f(rgb[1]), f(rgb[2])];
 }
 
 /** CPU twin of {@link tonemapFinite}. */

@@ -35,9 +35,9 @@ export const tonemapNeutral = wgslModule(
 /** CPU twin of {@link tonemapNeutral}. */
 export function neutralToneMap(rgb: Rgb): [number, number, number] {
   const c = finite(rgb);
-  const x = Math.min(...c);
+  const x = Math.min(c[0], c[1], c[2]);
   const offset = x <= 2 * F90 ? x - (x * x) / (4 * F90) : F90;
-  const peak = Math.max(...c) - offset;
+  const peak = Math.max(c[0], c[1], c[2]) - offset;
   if (peak <= START) return mapRgb(c, (v) => v - offset);
   const compressed = 1 - (1 - START) ** 2 / (peak + 1 - 2 * START);
   const keep = 1 / (DESATURATION * (peak - compressed) + 1);

@@ -19,3 +19,29 @@ export function srgbDecode(code: number): number {
   if (code >= 1) return 1;
   return code <= 0.04045 ? code / 12.92 : ((code + 0.055) / 1.055) ** 2.4;
 }
+
+const CELLS = 4096;
+
+/**
+ * A function that gives `Math.floor(255 * srgbEncode(linear) + 0.5)`, without its power: the table holds, for each code,
+ * the first number that has it, found by bisection, and for each cell of 0..1 the code at its beginning.
+ */
+export function srgbByteEncoder(): (linear: number) => number {
+  const code = (linear: number) => Math.floor(255 * srgbEncode(linear) + 0.5);
+  const first = new Float64Array(257).fill(Infinity);
+  for (let k = 1; k < 256; k++) {
+    let [low, high] = [0, 1];
+    for (let middle = 0.5; middle > low && middle < high; middle = (low + high) / 2)
+      if (code(middle) < k) low = middle;
+      else high = middle;
+    first[k] = high;
+  }
+  const cells = Uint8Array.from({ length: CELLS }, (_, i) => code(i / CELLS));
+  return (linear) => {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 255;
+    let k = cells[Math.floor(linear * CELLS)] as number;
+    while (linear >= (first[k + 1] as number)) k++;
+    return k;
+  };
+}

@@ -1,7 +1,7 @@
 import { mapRgb } from './finite';
 import { ToneMapError, type Rgb, type ToneMap } from './names';
 import { toneMapOperator } from './operators';
-import { srgbEncode } from './srgb';
+import { srgbByteEncoder, srgbEncode } from './srgb';
 
 /** How to convert a linear, scene-referred colour for a display. */
 export interface ToneMapOptions {
@@ -96,6 +96,7 @@ export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
         : new Float32Array(count * 4);
   const [top, round] = output === 'uint8' ? [255, 0.5] : output === 'uint16' ? [65535, 0.5] : [1, 0];
   const store = round === 0 ? (v: number) => v : (v: number) => Math.floor(v * top + round);
+  const encode = output === 'uint8' ? srgbByteEncoder() : (v: number) => store(srgbEncode(v));
   for (let i = 0; i < out.length; i += 4) {
     const coverage = rgba[i + 3] as number;
     const alpha = straight ? (coverage > 0 ? Math.min(coverage, 1) : 0) : 1;
@@ -105,9 +106,9 @@ export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
       (rgba[i + 1] as number) * scale,
       (rgba[i + 2] as number) * scale,
     ]);
-    out[i] = store(srgbEncode(r));
-    out[i + 1] = store(srgbEncode(g));
-    out[i + 2] = store(srgbEncode(b));
+    out[i] = encode(r);
+    out[i + 1] = encode(g);
+    out[i + 2] = encode(b);
     out[i + 3] = store(alpha);
   }
   return out as Outputs[O];

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { ToneMapError, srgbDecode, srgbEncode, toneMap, toneMapPixels } from '../src/index';
+import { srgbByteEncoder } from '../src/srgb';
 
 describe('sRGB', () => {
   it('has the points of IEC 61966-2-1', () => {
@@ -13,6 +14,20 @@ describe('sRGB', () => {
   });
   it('clamps, and writes NaN as 0', () => {
     expect([srgbEncode(-1), srgbEncode(NaN), srgbEncode(7), srgbDecode(NaN), srgbDecode(2)]).toEqual([0, 0, 1, 0, 1]);
+  });
+});
+
+describe('bytes by a table', () => {
+  it('are those of the power, at the limits between codes too', () => {
+    const encode = srgbByteEncoder();
+    const truth = (v: number) => Math.floor(255 * srgbEncode(v) + 0.5);
+    const values = Array.from({ length: 100_000 }, (_, i) => (i - 10) / 99_000);
+    for (let k = 1; k < 256; k++) {
+      const limit = srgbDecode((k - 0.5) / 255);
+      for (let ulp = -40; ulp <= 40; ulp++) values.push(limit * (1 + ulp * Number.EPSILON));
+    }
+    values.push(NaN, Infinity, -Infinity, Number.MIN_VALUE, 1 - Number.EPSILON);
+    for (const v of values) if (encode(v) !== truth(v)) expect.unreachable(`${v}: ${encode(v)}, not ${truth(v)}`);
   });
 });
 

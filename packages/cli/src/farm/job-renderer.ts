@@ -1,4 +1,5 @@
 import { join } from 'node:path';
+import type { BlasCache } from '@glanz/bvh/cache';
 import { FarmError, FolderStore, type JobRenderer } from '@glanz/farm';
 import { GlanzError } from '@glanz/scene';
 import type { Backend } from '../backend';
@@ -11,6 +12,7 @@ import { writeFilmFile } from '../render/film-file';
 import { GpuWorker } from '../render/gpu-worker';
 import { imageOfFilm, readFilms, SAMPLES_FROM } from '../render/merged-films';
 import { SceneLoader } from '../render/scene';
+import type { Shot } from '../render/shots';
 import { version } from '../version';
 import { outputName, shotOf, type JobPayload } from './payload';
 
@@ -23,10 +25,20 @@ class JobProgress extends ProgressReporter {
   }
 }
 
-/** Renders the jobs of a farm on one GPU. Images of the same scene, one after another, share a tracer. */
+/** Hierarchies of a store, which all its workers share. */
+async function storedHierarchies(store: FolderStore, onError: (error: unknown) => void): Promise<BlasCache> {
+  const [{ buildBlas }, { BlasCache }] = await Promise.all([import('@glanz/bvh'), import('@glanz/bvh/cache')]);
+  return new BlasCache(store.hierarchies, { buildBlas }, { onError });
+}
+
+/**
+ * Renders the jobs of a farm on one GPU. Images of the same scene, one after another, share a tracer, and hierarchies
+ * that another worker has built are read from the store.
+ */
 export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefined): JobRenderer {
   const progress = new JobProgress(io, false);
   let signal = new AbortController().signal;
+  let hierarchies: BlasCache | undefined;
   const context = {
     io,
     backend,
@@ -35,6 +47,9 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     keepPartial: false,
     get signal() {
       return signal;
+    },
+    get hierarchies() {
+      return hierarchies;
     },
   };
   let worker = new GpuWorker(context, gpu);
@@ -49,10 +64,15 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
       signal = stop;
       progress.onSamples = onProgress;
       const store = new FolderStore(storeFolder);
+      hierarchies = await storedHierarchies(store, (error) => progress.warning(describeError(error).message));
       const files = payload.outputs.map((target, i) => outputName(i, target));
-      if (job.kind === 'merge') return { files, info: await mergeParts(payload, job.parts ?? [], store, folder) };
-      const shot = await shotOf(payload, store, folder, checkpoint);
-      const made = await worker.render({ shot, lostGpus: 0 });
+      const shot = await shotOf(payload, store, folder, job.kind === 'merge' ? undefined : checkpoint);
+      const merged = job.kind === 'merge' ? await readParts(job.parts ?? [], store) : undefined;
+      if (merged && shot.options.denoise === undefined)
+        return { files, info: await writeMerged(merged, shot, job.parts?.length ?? 0) };
+      // Denoising needs the scene: a merged film is one whose samples are all there.
+      const made = await worker.render({ shot, lostGpus: 0, ...(merged ? { film: merged.film } : {}) });
+      await hierarchies.written();
       if (!made) {
         // A tracer that was stopped is not used again.
         worker.close();
@@ -60,7 +80,16 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
         return undefined;
       }
       const { samples, resumedSamples, gpuLosses, adapter } = made;
-      return { files, info: { samples, resumedSamples, gpuLosses, gpu: adapter.name } };
+      return {
+        files,
+        info: {
+          samples,
+          resumedSamples,
+          gpuLosses,
+          gpu: adapter.name,
+          ...(merged ? { parts: job.parts?.length } : {}),
+        },
+      };
     },
     failureOf(error) {
       const { code, message } = describeError(error);
@@ -78,10 +107,16 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     },
   };
 
-  async function mergeParts(payload: JobPayload, parts: readonly string[], store: FolderStore, folder: string) {
+  function readParts(parts: readonly string[], store: FolderStore): ReturnType<typeof readFilms> {
     const paths = parts.map((id) => join(store.resultFolder(id), outputName(0, { format: 'film' })));
-    const { film, settings } = await readFilms(paths, io.cwd, backend);
-    const { options, outputs } = await shotOf(payload, store, folder, undefined);
+    return readFilms(paths, io.cwd, backend);
+  }
+
+  async function writeMerged(
+    { film, settings }: Awaited<ReturnType<typeof readFilms>>,
+    { options, outputs }: Shot,
+    parts: number,
+  ) {
     const image = outputs.some(isImage) ? await imageOfFilm(film, backend) : undefined;
     const display = { ...options, transparent: options.settings.background === 'transparent' };
     const codec = () => backend.filmCodec();
@@ -96,6 +131,6 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
           codec,
         );
     }
-    return { samples: film.samples, parts: parts.length };
+    return { samples: film.samples, parts };
   }
 }

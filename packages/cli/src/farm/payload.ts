@@ -52,7 +52,9 @@ export async function shotOf(
   folder: string,
   checkpoint: string | undefined,
 ): Promise<Shot> {
-  const common = JSON.parse(new TextDecoder().decode(await store.read(payload.options))) as RenderCommandOptions;
+  const { denoise, ...common } = JSON.parse(
+    new TextDecoder().decode(await store.read(payload.options)),
+  ) as RenderCommandOptions;
   const file = async ({ bundle, file: name }: JobPayload['scene']) => resolve(await store.bundle(bundle), name);
   const { range } = payload;
   const outputs = payload.outputs.map(({ format, bits }, i) => ({
@@ -67,11 +69,17 @@ export async function shotOf(
       env: payload.env ? await file(payload.env) : common.env,
       views: [payload.view],
       outputs,
-      ...(range ? { samplesFrom: range.from, settings: { ...common.settings, samples: range.samples } } : {}),
+      // Parts are denoised when they have been merged.
+      ...(range
+        ? { samplesFrom: range.from, settings: { ...common.settings, samples: range.samples } }
+        : denoise === undefined
+          ? {}
+          : { denoise }),
     },
     variant: payload.variant,
     view: payload.view,
     outputs,
     checkpoint,
+    isPart: range !== undefined,
   };
 }

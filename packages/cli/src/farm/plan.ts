@@ -171,13 +171,15 @@ export class FarmPlan {
     return { index, id, requests, shot, paths };
   }
 
-  #ranges({ settings, samplesFrom, denoise }: RenderCommandOptions): { from: number; samples: number }[] {
+  #ranges({ settings, samplesFrom }: RenderCommandOptions): { from: number; samples: number }[] {
     const { split } = this.#options;
     const all = [{ from: samplesFrom, samples: settings.samples }];
     if (split === undefined || settings.samples <= split) return all;
-    if ((settings.noise ?? 0) > 0 || denoise !== undefined) {
+    if ((settings.noise ?? 0) > 0) {
       if (!this.#warnedSplit)
-        this.#options.warn('images with --noise or --denoise are not split: their pixels need the film as a whole.');
+        this.#options.warn(
+          'images with --noise are not split: which pixels need more samples shows in the film as a whole.',
+        );
       this.#warnedSplit = true;
       return all;
     }

@@ -18,6 +18,15 @@ export interface FilmFileHeader {
   readonly sha256: string;
 }
 
+/** Bytes that `update` takes at once: it refuses 2 GiB, which a film of two light groups has at 7680 × 4320. */
+const HASHED_AT_ONCE = 2 ** 30;
+
+function sha256Of(bytes: Uint8Array): string {
+  const hash = createHash('sha256');
+  for (let at = 0; at < bytes.length; at += HASHED_AT_ONCE) hash.update(bytes.subarray(at, at + HASHED_AT_ONCE));
+  return hash.digest('hex');
+}
+
 /** How the reader of a film file reports what is wrong with it. */
 export interface FilmFileErrors {
   /** It is something else. */
@@ -64,7 +73,7 @@ export async function readFilmFile(
       if (bytesRead === 0) throw broken('it ends early');
       at += bytesRead;
     }
-    if (createHash('sha256').update(bytes).digest('hex') !== header.sha256) throw broken('its content is damaged');
+    if (sha256Of(bytes) !== header.sha256) throw broken('its content is damaged');
     const { decode } = await codec();
     try {
       return { header, film: decode(bytes) };
@@ -95,7 +104,7 @@ export async function writeFilmFile(
     settings,
     samples: state.samples,
     bytes: film.length,
-    sha256: createHash('sha256').update(film).digest('hex'),
+    sha256: sha256Of(film),
   };
   const lines = new TextEncoder().encode(`${FIRST_LINE}${JSON.stringify(header)}\n`);
   await writeWhole(path, cwd, [lines, film], { sync: true });

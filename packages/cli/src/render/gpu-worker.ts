@@ -1,5 +1,13 @@
 import { GlanzError, type Camera, type Scene } from '@glanz/scene';
-import type { DenoiseQuality, Backend, FilmState, ImageDenoiser, OpenedGpu, Tracer } from '../backend';
+import type {
+  DenoiseQuality,
+  Backend,
+  FilmState,
+  ImageDenoiser,
+  OpenedGpu,
+  PathTracerOptions,
+  Tracer,
+} from '../backend';
 import { CliError } from '../errors';
 import type { CliIo } from '../io';
 import type { RenderCommandOptions } from '../options';
@@ -25,6 +33,8 @@ export interface WorkerContext {
   readonly signal: AbortSignal;
   /** Whether an image that is stopped is written as it is. */
   readonly keepPartial: boolean;
+  /** Builds hierarchies, or reads those that were built before. Default: built on this thread. */
+  readonly hierarchies?: PathTracerOptions['hierarchies'];
 }
 
 const MAX_WARNINGS = 5;
@@ -256,7 +266,10 @@ export class GpuWorker {
 
   async #writeFilm(film: FilmState, { path, format, bits }: OutputTarget, shot: Shot): Promise<WrittenFile> {
     const { io, backend } = this.#context;
-    const bytes = await new CheckpointFile(path, shot, io.cwd).write(film, () => backend.filmCodec());
+    const { sums } = film;
+    // Zeros take no bytes.
+    const written = shot.isPart ? { ...film, sums: { ...sums, beauty: new Float32Array(sums.beauty.length) } } : film;
+    const bytes = await new CheckpointFile(path, shot, io.cwd).write(written, () => backend.filmCodec());
     return { path, format, bits, bytes };
   }
 
@@ -302,7 +315,7 @@ export class GpuWorker {
     camera: Camera,
     variant: number | undefined,
   ): Promise<Tracer> {
-    const { backend, progress, signal } = this.#context;
+    const { backend, progress, signal, hierarchies } = this.#context;
     const { device } = this.#gpu.opened as OpenedGpu;
     const { width, height } = options;
     const { samples: _samples, noise: _noise, ...settings } = options.settings;
@@ -322,6 +335,7 @@ export class GpuWorker {
       ...settings,
       aovs,
       signal,
+      ...(hierarchies ? { hierarchies } : {}),
       onProgress: ({ stage, done }) => progress.stage(LABELS[stage], done),
     });
     this.#key = key;

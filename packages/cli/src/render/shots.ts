@@ -14,6 +14,8 @@ export interface Shot {
   readonly outputs: readonly OutputTarget[];
   /** Likewise; `undefined`: samples are kept in memory only. */
   readonly checkpoint: string | undefined;
+  /** Its film is for a merge alone, which does not need the image that it has come to. */
+  readonly isPart?: boolean;
 }
 
 function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {

@@ -1,5 +1,5 @@
 import { createHash, randomBytes } from 'node:crypto';
-import { mkdir, readFile, readdir, rename, rm, stat } from 'node:fs/promises';
+import { mkdir, readFile, readdir, rename, rm, stat, utimes } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { FarmError } from '../error';
 import type { Destination, JobResult } from '../job';
@@ -35,6 +35,7 @@ const isName = (name: string) =>
  * | `results` | a folder for each finished job: its files and `result.json` |
  * | `working` | files of jobs that are being rendered |
  * | `checkpoints` | films of jobs that were given back |
+ * | `hierarchies` | what was built of meshes, under their SHA-256, so that workers do not build it again |
  * | `batches` | what was submitted, a line of JSON for each image |
  *
  * A result appears as a whole, by the renaming of its folder, and stays: of two workers that finish the same job, the
@@ -57,7 +58,7 @@ export class FolderStore {
   async put(content: Uint8Array | string): Promise<string> {
     const hash = createHash('sha256').update(content).digest('hex');
     const file = this.objectPath(hash);
-    if (!(await exists(file))) await writeWhole(file, content);
+    if (!(await used(file))) await writeWhole(file, content);
     return hash;
   }
 
@@ -65,7 +66,7 @@ export class FolderStore {
   async putFile(path: string): Promise<string> {
     const hash = await hashFile(path);
     const file = this.objectPath(hash);
-    if (!(await exists(file))) {
+    if (!(await used(file))) {
       await copyWhole(path, file);
       // It may have been written to while it was copied.
       if ((await hashFile(file)) !== hash) {
@@ -100,7 +101,7 @@ export class FolderStore {
   /** A folder with the files of a bundle. They are not to be changed. */
   async bundle(hash: string): Promise<string> {
     const folder = join(this.folder, 'bundles', checked(hash));
-    if (await exists(folder)) return folder;
+    if (await used(folder)) return folder;
     const list = JSON.parse(new TextDecoder().decode(await this.read(hash))) as [string, string][];
     const partial = partialOf(folder);
     await mkdir(partial, { recursive: true });
@@ -137,7 +138,10 @@ export class FolderStore {
         ),
       ),
     );
-    if (result.files.every(({ bytes }, i) => sizes[i] === bytes)) return result;
+    if (result.files.every(({ bytes }, i) => sizes[i] === bytes)) {
+      await used(folder);
+      return result;
+    }
     // A file was taken away by hand: the job is to be done again.
     await rm(folder, { recursive: true, force: true });
     return undefined;
@@ -193,6 +197,47 @@ export class FolderStore {
     }
   }
 
+  /** Hierarchies by their keys, for a `BlasCache` of `@glanz/bvh/cache`. */
+  get hierarchies(): {
+    get(key: string): Promise<Uint8Array | undefined>;
+    set(key: string, bytes: ArrayBuffer): Promise<void>;
+  } {
+    const path = (key: string) => join(this.folder, 'hierarchies', checked(key).slice(0, 2), key);
+    return {
+      get: async (key) => ((await used(path(key))) ? readFile(path(key)) : undefined),
+      set: async (key, bytes) => {
+        if (!(await used(path(key)))) await writeWhole(path(key), new Uint8Array(bytes));
+      },
+    };
+  }
+
+  /**
+   * Deletes what was not used for some time: results, checkpoints, models with their files, hierarchies, lists of
+   * batches. What is still needed is made again, except for models and options of jobs that have waited longer in a
+   * queue, which then fail and are to be submitted again.
+   *
+   * @param olderThanMs Milliseconds; a use is noted once a day.
+   */
+  async clean(olderThanMs: number, now = Date.now()): Promise<{ readonly entries: number; readonly bytes: number }> {
+    const total = { entries: 0, bytes: 0 };
+    const before = now - Math.max(0, olderThanMs);
+    const remove = async (path: string) => {
+      const found = await stat(path).catch(() => undefined);
+      if (!found || found.mtimeMs >= before) return;
+      total.entries++;
+      total.bytes += await sizeOf(path);
+      await rm(path, { recursive: true, force: true });
+    };
+    const names = (folder: string) => readdir(folder).catch(() => []);
+    for (const kind of ['bundles', 'checkpoints', 'batches', 'working'])
+      for (const name of await names(join(this.folder, kind))) await remove(join(this.folder, kind, name));
+    for (const kind of ['results', 'objects', 'hierarchies'])
+      for (const group of await names(join(this.folder, kind)))
+        for (const name of await names(join(this.folder, kind, group)))
+          await remove(join(this.folder, kind, group, name));
+    return total;
+  }
+
   /** Deletes what workers that were killed more than a day ago have left. */
   async sweep(now = Date.now()): Promise<void> {
     const folder = join(this.folder, 'working');
@@ -201,6 +246,23 @@ export class FolderStore {
       if (found && now - found.mtimeMs > DAY_MS) await rm(join(folder, name), { recursive: true, force: true });
     }
   }
+}
+
+/** Whether there is such a file or folder. Notes that it was used, once a day, for {@link FolderStore.clean}. */
+async function used(path: string): Promise<boolean> {
+  const found = await stat(path).catch(() => undefined);
+  const now = Date.now();
+  if (found && now - found.mtimeMs > DAY_MS) await utimes(path, new Date(now), new Date(now)).catch(() => undefined);
+  return found !== undefined;
+}
+
+/** Bytes of a file, or of all files of a folder. */
+async function sizeOf(path: string): Promise<number> {
+  const found = await stat(path).catch(() => undefined);
+  if (!found?.isDirectory()) return found?.size ?? 0;
+  const names = await readdir(path).catch(() => []);
+  const sizes = await Promise.all(names.map((name) => sizeOf(join(path, name))));
+  return sizes.reduce((sum, size) => sum + size, 0);
 }
 
 const exists = (path: string) =>

@@ -4,7 +4,7 @@ import { FILM_SUMS, type FilmPart, type FilmState } from './film-state';
 
 /** "GLZF", little-endian. */
 const MAGIC = 0x465a4c47;
-const VERSION = 3;
+const VERSION = 4;
 /** Magic, version, length of the JSON, checksum of all that follows. */
 const HEADER_BYTES = 16;
 
@@ -13,6 +13,8 @@ const broken = (what: string) =>
 
 type Head = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
   readonly parts: readonly number[];
+  /** Sums that are 0 everywhere, which are left out: `film_block` after whole chunks, for one. */
+  readonly zero: readonly (typeof FILM_SUMS)[number][];
   readonly sample: number;
   readonly pixel: number;
   readonly until: number;
@@ -28,16 +30,25 @@ function checksum(bytes: Uint8Array<ArrayBuffer>): number {
   return hash >>> 0;
 }
 
+/** Whether all words are 0; -0 is something else. */
+function isZero({ buffer, byteOffset, length }: Float32Array<ArrayBuffer>): boolean {
+  const words = new Uint32Array(buffer, byteOffset, length);
+  for (let i = 0; i < length; i++) if (words[i] !== 0) return false;
+  return true;
+}
+
 /**
- * A film as bytes, for a file: a header with a checksum, a line of JSON and the sums as they are (about
- * `32 × lightPasses + 32` bytes a pixel). Little-endian; for this version of Glanz.
+ * A film as bytes, for a file: a header with a checksum, a line of JSON and the sums as they are (at most about
+ * `32 × lightPasses + 32` bytes a pixel; sums that are 0 everywhere take none). Little-endian; for this version of Glanz.
  */
 export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
   const { sampling, sums, parts: partial, ...rest } = state;
   const { counts, tiles, sample, pixel, until } = sampling;
+  const zero = FILM_SUMS.filter((name) => isZero(sums[name]));
   const head: Head = {
     ...rest,
     parts: partial.map(({ chunk }) => chunk),
+    zero,
     sample,
     pixel,
     until,
@@ -50,7 +61,7 @@ export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
   const parts = [
     counts,
     ...(tiles ? [tiles] : []),
-    ...FILM_SUMS.map((name) => sums[name]),
+    ...FILM_SUMS.filter((name) => !zero.includes(name)).map((name) => sums[name]),
     ...partial.map((part) => part.sums),
   ];
   const bytes = new Uint8Array(parts.reduce((sum, part) => sum + part.byteLength, HEADER_BYTES + textBytes));
@@ -86,7 +97,7 @@ export function decodeFilmState(bytes: Uint8Array): FilmState {
   const words =
     head.counts +
     Math.max(0, head.tiles) +
-    Object.values(lengths).reduce((a, b) => a + b, 0) +
+    FILM_SUMS.reduce((sum, name) => sum + (head.zero.includes(name) ? 0 : lengths[name]), 0) +
     head.parts.length * lengths.film_total;
   let at = HEADER_BYTES + textBytes;
   if (bytes.length !== at + 4 * words)
@@ -99,7 +110,10 @@ export function decodeFilmState(bytes: Uint8Array): FilmState {
   const counts = new Uint32Array(next(head.counts));
   const tiles = head.tiles < 0 ? undefined : new Uint32Array(next(head.tiles));
   const sums = Object.fromEntries(
-    FILM_SUMS.map((name) => [name, new Float32Array(next(lengths[name]))]),
+    FILM_SUMS.map((name) => [
+      name,
+      head.zero.includes(name) ? new Float32Array(lengths[name]) : new Float32Array(next(lengths[name])),
+    ]),
   ) as unknown as FilmState['sums'];
   const parts = head.parts.map((chunk): FilmPart => ({ chunk, sums: new Float32Array(next(lengths.film_total)) }));
   const { width, height, samples, ranges, badSamples, lightPasses, fingerprint, weights, sample, pixel, until } = head;
@@ -142,12 +156,13 @@ function readHead(text: Uint8Array): Head {
     throw new RenderError('renderer/film-state', 'The header of this film cannot be read. Render it again.', { cause });
   }
   const { width, height, lightPasses, samples, ranges, badSamples, sample, pixel, until, counts, tiles } = head ?? {};
-  const { fingerprint, weights, parts } = head ?? {};
+  const { fingerprint, weights, parts, zero } = head ?? {};
   const whole =
     [width, height, lightPasses].every((value) => isWhole(value, 1)) &&
     [samples, badSamples, sample, pixel, until, counts].every((value) => isWhole(value, 0)) &&
     isWhole(tiles, -1);
-  const lists = isRanges(ranges) && Array.isArray(parts) && parts.every((chunk) => isWhole(chunk, 0));
+  const lists =
+    isRanges(ranges) && Array.isArray(zero) && Array.isArray(parts) && parts.every((chunk) => isWhole(chunk, 0));
   if (!whole || !lists || typeof fingerprint !== 'string' || !isWeights(weights?.first) || !isWeights(weights?.last))
     throw broken('their header lacks something');
   return head;

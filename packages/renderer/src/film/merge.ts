@@ -127,8 +127,9 @@ function partsOf(films: readonly FilmState[]): Map<number, { inTotal: Float32Arr
 }
 
 function added(arrays: readonly Float32Array[]): Float64Array {
-  const out = new Float64Array((arrays[0] as Float32Array).length);
-  for (const array of arrays) addTo(out, array);
+  const [first, ...others] = arrays;
+  const out = new Float64Array(first as Float32Array);
+  for (const array of others) addTo(out, array);
   return out;
 }
 

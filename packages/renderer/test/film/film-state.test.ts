@@ -36,6 +36,19 @@ describe('a film as bytes', () => {
     expect(decodeFilmState(encodeFilmState(state(tiles)))).toEqual(state(tiles));
   });
 
+  it('takes no bytes for sums that are 0 everywhere', () => {
+    const full = state();
+    const { film_block: block, beauty } = full.sums;
+    const sums = { ...full.sums, film_block: new Float32Array(block.length), beauty: new Float32Array(beauty.length) };
+    const some = { ...full, sums };
+    expect(decodeFilmState(encodeFilmState(some))).toEqual(some);
+    const saved = encodeFilmState(full).length - encodeFilmState(some).length;
+    // But for their names in the header.
+    expect(Math.abs(saved - block.byteLength - beauty.byteLength)).toBeLessThan(40);
+    sums.beauty[5] = -0;
+    expect(Object.is(decodeFilmState(encodeFilmState(some)).sums.beauty[5], -0)).toBe(true);
+  });
+
   it('is read from the middle of a larger buffer', () => {
     const bytes = encodeFilmState(state());
     const larger = new Uint8Array(bytes.length + 3);

@@ -1,7 +1,7 @@
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { createPushButton } from '@glanz/models';
+import { createCornellBox, createPushButton } from '@glanz/models';
 import { sceneToGlb } from '@glanz/models/gltf';
 import { listGpus } from '@glanz/renderer/node';
 import { findRedis, startRedis } from '@glanz/redis';
@@ -15,6 +15,11 @@ const number = (text: string | undefined, fallback: number, name: string) => {
   if (!Number.isInteger(value) || value < 1)
     throw new BenchError('bench/option', `--${name} ${text}: it must be a whole number of at least 1.`);
   return value;
+};
+/** What the large image shows: it fills the image. */
+const SCENES: Readonly<Record<string, { readonly model: string; readonly camera: object }>> = {
+  'push-button': { model: 'm.glb', camera: { position: [0.07, 0.038, 0.048], target: [0, 0, -0.01], fov: 25 } },
+  'cornell-box': { model: 'box.glb', camera: { position: [0, 0.5, 0.49], target: [0, 0.45, 0], fov: 50 } },
 };
 const pixels = (size: string) => size.split('x').reduce((product, side) => product * Number(side), 1);
 /** Of issue and guide: the samples of a large image for print. */
@@ -37,6 +42,7 @@ export const benchmark: Benchmark = {
     samples: { type: 'string', help: 'of these, default 512' },
     'large-size': { type: 'string', help: 'of the large image, default 7680x4320' },
     'large-samples': { type: 'string', help: 'of the large image: one or more counts, default 512,2048' },
+    'large-scene': { type: 'string', help: 'push-button (default), seen from near by, or cornell-box' },
     gpus: { type: 'string', help: 'workers on one GPU instead of one on each, to try it on a machine with one' },
     level: { type: 'string', help: 'detail of the push-button: low, medium, high; default medium' },
   },
@@ -48,6 +54,9 @@ export const benchmark: Benchmark = {
     const largeSamples = (values['large-samples'] ?? (quick ? '32,64' : '512,2048'))
       .split(',')
       .map((text) => number(text, 0, 'large-samples'));
+    const scene = SCENES[values['large-scene'] ?? 'push-button'];
+    if (!scene)
+      throw new BenchError('bench/option', `--large-scene: it must be one of ${Object.keys(SCENES).join(', ')}.`);
     const level = (values['level'] ?? 'medium') as 'low' | 'medium' | 'high';
     const { program, missing } = await findRedis();
     if (!program) throw new BenchError('bench/missing', `No Redis: ${missing}.`);
@@ -63,6 +72,7 @@ export const benchmark: Benchmark = {
     const redis = await startRedis(program, join(folder, 'redis'));
     try {
       writeFileSync(join(folder, 'm.glb'), await sceneToGlb(createPushButton({ level })));
+      writeFileSync(join(folder, 'box.glb'), await sceneToGlb(createCornellBox()));
       const render = (row: object, output: string, store: string, gpus: readonly string[], split?: number) =>
         renderBatch({ row: { model: 'm.glb', ...row }, output, redis: redis.url, store, split }, gpus, folder, log);
 
@@ -79,7 +89,7 @@ export const benchmark: Benchmark = {
       const runs: LargeRun[] = [];
       const differences: Figure[] = [];
       for (const n of largeSamples) {
-        const large = { view: 'iso', size: largeSize, samples: n };
+        const large = { ...scene, camera: JSON.stringify(scene.camera), size: largeSize, samples: n };
         const whole = await render(large, 'large.film', `large-one-${n}`, [single]);
         log(`${largeSize}, ${n} samples on one GPU: ${whole.seconds.toFixed(1)} s`);
         const split = await render(large, 'large.film', `large-all-${n}`, all, Math.ceil(n / count));
@@ -103,7 +113,16 @@ export const benchmark: Benchmark = {
       const value = (name: string, unit: string, median: number): Figure => ({ name, unit, runs: 1, median });
       const perMinute = ({ seconds }: BatchRun) => (60 * images) / seconds;
       return {
-        settings: { images, size, samples, largeSize, largeSamples, level, gpus: copies ? all : adapters },
+        settings: {
+          images,
+          size,
+          samples,
+          largeSize,
+          largeSamples,
+          largeScene: scene,
+          level,
+          gpus: copies ? all : adapters,
+        },
         figures: [
           value('one GPU', 'images/min', perMinute(one)),
           value(`${count} GPUs`, 'images/min', perMinute(both)),

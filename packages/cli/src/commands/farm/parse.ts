@@ -16,6 +16,7 @@ const FARM_OPTIONS = {
   host: { type: 'string' },
   manifest: { type: 'string' },
   metrics: { type: 'boolean' },
+  'older-than': { type: 'string' },
   'until-empty': { type: 'boolean' },
   all: { type: 'boolean' },
 } as const;
@@ -30,6 +31,7 @@ export const FARM_ACTIONS = [
   'task',
   'manifest',
   'serve',
+  'clean',
   'renderer',
 ] as const;
 
@@ -59,6 +61,8 @@ export interface FarmCommand extends ReportOptions {
   readonly host: string;
   readonly manifest: string | undefined;
   readonly metrics: boolean;
+  /** Milliseconds; of `clean`. */
+  readonly olderThan: number | undefined;
   readonly untilEmpty: boolean;
   readonly all: boolean;
   readonly outputRoot: string | undefined;
@@ -90,17 +94,33 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
     );
   const is = action as Action;
   const warnings: string[] = [];
-  const { redis: address, queue, store, split, lock, image, part, openjd, port, host, manifest, ...rest } = given;
+  const {
+    redis: address,
+    queue,
+    store,
+    split,
+    lock,
+    image,
+    part,
+    openjd,
+    port,
+    host,
+    manifest,
+    'older-than': olderThan,
+    ...rest
+  } = given;
   const values = presentNames(rest as RenderValues, (text) => warnings.push(text));
   const redis = address ?? (environment.GLANZ_REDIS || undefined);
   if (BATCH.includes(is) && args.length !== 1)
     throw usage(`glanz farm ${is} takes one batch file: glanz farm ${is} batch.json. See glanz help farm.`);
   if (REDIS.includes(is) && redis === undefined)
     throw usage(`glanz farm ${is} needs --redis redis://HOST:6379, or GLANZ_REDIS in the environment.`);
-  if ((is === 'work' || is === 'status' || is === 'serve') && args.length > 0)
+  if ((is === 'work' || is === 'status' || is === 'serve' || is === 'clean') && args.length > 0)
     throw usage(`glanz farm ${is} takes no files: what is "${args[0]}"?`);
   if ((is === 'retry' || is === 'cancel') && args.length > 0 === (given.all ?? false))
     throw usage(`glanz farm ${is} takes ids of jobs, which glanz farm status lists, or --all.`);
+  if (is === 'clean' && olderThan === undefined)
+    throw usage('glanz farm clean needs --older-than, such as 30d or 12h: what was not used for so long is deleted.');
   if (is === 'manifest' && manifest === undefined)
     throw usage('glanz farm manifest needs --manifest FILE, where to write it.');
   return {
@@ -121,6 +141,7 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
     host: host ?? '127.0.0.1',
     manifest,
     metrics: given.metrics ?? false,
+    olderThan: ageOf(olderThan),
     untilEmpty: given['until-empty'] ?? false,
     all: given.all ?? false,
     outputRoot: given['output-root'],
@@ -136,6 +157,15 @@ function whole(name: string, text: string | undefined, min: number, max: number)
   if (!Number.isInteger(value) || value < min || value > max)
     throw usage(`--${name} must be a whole number from ${min} to ${max}, not "${text}".`);
   return value;
+}
+
+/** `30d`, `12h`, `90m`, in milliseconds. */
+function ageOf(text: string | undefined): number | undefined {
+  if (text === undefined) return undefined;
+  const [, number, unit] = /^(\d{1,6})([dhm])$/.exec(text.trim()) ?? [];
+  if (number === undefined)
+    throw usage(`--older-than must be days, hours or minutes, such as 30d, 12h or 90m, not "${text}".`);
+  return Number(number) * { d: 86_400_000, h: 3_600_000, m: 60_000 }[unit as 'd' | 'h' | 'm'];
 }
 
 /** `3`, `0,4`, `10-19`; `red/front`. */

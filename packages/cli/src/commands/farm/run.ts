@@ -32,6 +32,13 @@ export async function farmCommand(command: FarmCommand, io: CliIo, backend: Back
       return taskCommand(command, await openPlan(command, io, backend, progress), io, backend, progress);
     case 'manifest':
       return writeManifest(command, await openPlan(command, io, backend, progress), io, progress);
+    case 'clean': {
+      const { entries, bytes } = await new FolderStore(resolve(io.cwd, command.store)).clean(
+        command.olderThan as number,
+      );
+      report(command, io, { entries, bytes }, `${entries} entries deleted, ${(bytes / 1e6).toFixed(1)} MB`);
+      return EXIT.ok;
+    }
     case 'renderer':
       return serveRenderer(farmRenderer(io, backend, command.gpus[0]));
     default:
