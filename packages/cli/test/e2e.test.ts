@@ -1,4 +1,4 @@
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { decodeExr } from '@glanz/image';
 import sharp from 'sharp';
@@ -114,6 +114,29 @@ describe('a red square', () => {
     expect([...exr.channels.keys()].filter((name) => name.startsWith('light.'))).toEqual([]);
     expect(at('variance.R', 8, 8)).toBeGreaterThanOrEqual(0);
     expect(at('variance.R', 8, 8)).toBeLessThan(0.01);
+  });
+
+  it.skipIf(!existsSync(WEIGHTS))('of a farm in parts is denoised when it has been merged', async () => {
+    const folder = cwd();
+    const image = { model: 'red.glb', size: '32x24', samples: 48, denoise: 'fast' };
+    const task = async (row: object, store: string) => {
+      writeFileSync(join(folder, 'b.json'), JSON.stringify([row]));
+      const io = fakeIo(folder);
+      const argv = ['farm', 'task', 'b.json', '--split', '16', '--store', store, '--gpu', 'software'];
+      expect(await runCli(argv, io), io.err.join('')).toBe(0);
+    };
+    const pixels = (name: string) => sharp(join(folder, name)).raw().toBuffer();
+    await task({ ...image, output: 'split.png' }, 'a');
+    await task({ ...image, denoise: undefined, output: 'merged.film' }, 'b');
+    await task({ ...image, denoise: undefined, output: 'noisy.png' }, 'c');
+    // A film is a checkpoint: no sample is left to render, and the same film is denoised.
+    const size = ['--size', '32x24', '--samples', '48'];
+    const render = ['red.glb', ...size, '--checkpoint', 'merged.film', '--denoise', 'fast', '-o', 'whole.png'];
+    const { code, err } = await glanz(render, folder);
+    expect([code, err.includes('going on from sample 48')], err).toEqual([0, true]);
+    const [split, whole, noisy] = await Promise.all(['split.png', 'whole.png', 'noisy.png'].map(pixels));
+    expect(Buffer.compare(split!, whole!)).toBe(0);
+    expect(noisy!.reduce((max, v, i) => Math.max(max, Math.abs(v - split![i]!)), 0)).toBeGreaterThan(0);
   });
 
   it.skipIf(!existsSync(WEIGHTS))('has less noise in the layer denoised, and the same film', async () => {

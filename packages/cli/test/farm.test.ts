@@ -6,7 +6,6 @@ import { fileURLToPath } from 'node:url';
 import { openFarmQueue, type FarmStatus } from '@glanz/farm';
 import { decodeExr } from '@glanz/image/exr';
 import { findRedis, startRedis, type RedisServer } from '@glanz/redis';
-import sharp from 'sharp';
 import { beforeAll, describe, expect, it, onTestFinished } from 'vitest';
 import { temporaryFolder } from './fakes';
 import { makeGlb } from './glb';
@@ -267,26 +266,6 @@ describe('without a queue', () => {
       }
     }
     expect(lit).toBeGreaterThan(100);
-  });
-
-  it('an image in parts is denoised when it has been merged', async () => {
-    const folder = batchFolder(1);
-    const image = { model: 'shoe.glb', view: 'front', size: '32x24', samples: 48, denoise: 'fast', output: 'x.png' };
-    writeFileSync(join(folder, 'batch.json'), JSON.stringify([image]));
-    const task = ['farm', 'task', 'batch.json', '--gpu', 'software', '--json'];
-    const read = async (...more: string[]) => {
-      const { out, err } = await glanz([...task, ...more], folder);
-      expect(JSON.parse(out), err).toMatchObject({ ok: true, images: 1 });
-      return sharp(join(folder, 'x.png')).raw().toBuffer();
-    };
-    const split = await read('--split', '16', '--store', 'a');
-    const whole = await read('--store', 'b');
-    writeFileSync(join(folder, 'batch.json'), JSON.stringify([{ ...image, denoise: undefined }]));
-    const noisy = await read('--store', 'c');
-    const difference = (a: Buffer, b: Buffer) => a.reduce((most, v, i) => Math.max(most, Math.abs(v - b[i]!)), 0);
-    // The films differ in the last bits of their sums, which may take a code to its neighbour.
-    expect(difference(split, whole)).toBeLessThanOrEqual(1);
-    expect(difference(split, noisy)).toBeGreaterThan(4);
   });
 
   it('the manifest says what is missing', async () => {

@@ -41,7 +41,7 @@ export const benchmark: Benchmark = {
     size: { type: 'string', help: 'of these, default 1920x1080' },
     samples: { type: 'string', help: 'of these, default 512' },
     'large-size': { type: 'string', help: 'of the large image, default 7680x4320' },
-    'large-samples': { type: 'string', help: 'of the large image: one or more counts, default 512,2048' },
+    'large-samples': { type: 'string', help: 'of the large image: counts, default 512,2048; or none' },
     'large-scene': { type: 'string', help: 'push-button (default), seen from near by, or cornell-box' },
     gpus: { type: 'string', help: 'workers on one GPU instead of one on each, to try it on a machine with one' },
     level: { type: 'string', help: 'detail of the push-button: low, medium, high; default medium' },
@@ -53,6 +53,7 @@ export const benchmark: Benchmark = {
     const largeSize = values['large-size'] ?? (quick ? '192x128' : '7680x4320');
     const largeSamples = (values['large-samples'] ?? (quick ? '32,64' : '512,2048'))
       .split(',')
+      .filter((text) => text !== 'none')
       .map((text) => number(text, 0, 'large-samples'));
     const scene = SCENES[values['large-scene'] ?? 'push-button'];
     if (!scene)
@@ -124,9 +125,11 @@ export const benchmark: Benchmark = {
           gpus: copies ? all : adapters,
         },
         figures: [
-          value('one GPU', 'images/min', perMinute(one)),
-          value(`${count} GPUs`, 'images/min', perMinute(both)),
-          { ...value('images: ratio', '1', one.seconds / both.seconds), target },
+          value('one GPU', 'images/min', steadyPerMinute(one)),
+          value(`${count} GPUs`, 'images/min', steadyPerMinute(both)),
+          { ...value('images: ratio', '1', steadyPerMinute(both) / steadyPerMinute(one)), target },
+          value('one GPU, its start included', 'images/min', perMinute(one)),
+          value(`${count} GPUs, their start included`, 'images/min', perMinute(both)),
           ...runs.flatMap((run) => [
             value(`large image, ${run.samples} samples: one GPU`, 's', run.one.seconds),
             value(`large image, ${run.samples} samples: ${count} GPUs`, 's', run.split.seconds),
@@ -151,6 +154,16 @@ export const benchmark: Benchmark = {
   },
 };
 
+/** Images a minute, once each worker has finished one: it starts with its GPU, the model and its kernels. */
+function steadyPerMinute({ jobs }: BatchRun): number {
+  const times = new Map<string, number[]>();
+  for (const { worker, finished } of jobs) times.set(worker, [...(times.get(worker) ?? []), Date.parse(finished)]);
+  let perMinute = 0;
+  for (const ends of times.values())
+    if (ends.length > 1) perMinute += (60_000 * (ends.length - 1)) / (Math.max(...ends) - Math.min(...ends));
+  return perMinute;
+}
+
 /** The longest job: a merge, or one that renders. */
 const secondsOf = ({ jobs }: BatchRun, isMerge: boolean) =>
   Math.max(
@@ -162,8 +175,8 @@ const secondsOf = ({ jobs }: BatchRun, isMerge: boolean) =>
 /** What {@link FULL_SAMPLES} take, by the line through the smallest and the largest number of samples measured. */
 function predicted(runs: readonly LargeRun[], pixelCount: number, target: NonNullable<Figure['target']>): Figure[] {
   const sorted = [...runs].sort((a, b) => a.samples - b.samples);
-  const [first, last] = [sorted[0] as LargeRun, sorted.at(-1) as LargeRun];
-  if (first === last) return [];
+  const [first, last] = [sorted[0], sorted.at(-1)];
+  if (!first || !last || first === last) return [];
   const line = (seconds: (run: LargeRun) => number) => {
     const slope = (seconds(last) - seconds(first)) / (last.samples - first.samples);
     return { slope, at: (samples: number) => seconds(last) + slope * (samples - last.samples) };
