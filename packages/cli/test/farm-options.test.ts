@@ -150,7 +150,7 @@ describe('the command line', () => {
     expect(JSON.parse(second.out)).toMatchObject({ ok: true, total: 1, skipped: 1 });
   });
 
-  it('clean deletes what is old, and needs to be told how old', async () => {
+  it('clean deletes what is old, and needs an age', async () => {
     const cwd = withBatch([{ model: 'm.glb', output: 'a.png' }]);
     const store = new FolderStore(join(cwd, '.glanz-farm'));
     const hash = await store.put('content');
