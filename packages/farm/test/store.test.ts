@@ -149,4 +149,14 @@ describe('hierarchies and cleaning', () => {
     expect(await store.clean(30 * day, now + 31 * day)).toMatchObject({ entries: 2 });
     expect(await store.hierarchies.get(KEY)).toBeUndefined();
   });
+
+  it('notes a use within the day, which --older-than 12h must see', async () => {
+    const store = await withResult('result');
+    const kept = await store.put('kept');
+    const ago = new Date(Date.now() - 18 * 3_600_000);
+    for (const path of [store.objectPath(kept), store.resultFolder(ID)]) utimesSync(path, ago, ago);
+    expect(await store.result(ID)).toBeDefined();
+    expect(await store.put('kept')).toBe(kept);
+    expect(await store.clean(12 * 3_600_000)).toEqual({ entries: 0, bytes: 0 });
+  });
 });

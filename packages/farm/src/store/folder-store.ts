@@ -15,6 +15,8 @@ export interface BundleFile {
 
 const ID = /^[0-9a-f]{40,64}$/;
 const DAY_MS = 86_400_000;
+/** Uses are noted so often: the unit of `glanz farm clean --older-than`. */
+const USE_MS = 60_000;
 
 /** Refuses what is no identity, so that no id of a queue leads out of the store. */
 function checked(id: string): string {
@@ -216,7 +218,7 @@ export class FolderStore {
    * batches. What is still needed is made again, except for models and options of jobs that have waited longer in a
    * queue, which then fail and are to be submitted again.
    *
-   * @param olderThanMs Milliseconds; a use is noted once a day.
+   * @param olderThanMs Milliseconds; a use is noted once a minute.
    */
   async clean(olderThanMs: number, now = Date.now()): Promise<{ readonly entries: number; readonly bytes: number }> {
     const total = { entries: 0, bytes: 0 };
@@ -248,11 +250,11 @@ export class FolderStore {
   }
 }
 
-/** Whether there is such a file or folder. Notes that it was used, once a day, for {@link FolderStore.clean}. */
+/** Whether there is such a file or folder. Notes that it was used, once a minute, for {@link FolderStore.clean}. */
 async function used(path: string): Promise<boolean> {
   const found = await stat(path).catch(() => undefined);
   const now = Date.now();
-  if (found && now - found.mtimeMs > DAY_MS) await utimes(path, new Date(now), new Date(now)).catch(() => undefined);
+  if (found && now - found.mtimeMs > USE_MS) await utimes(path, new Date(now), new Date(now)).catch(() => undefined);
   return found !== undefined;
 }
 

@@ -27,10 +27,10 @@ function stage(): Scene {
     scene,
     0.1,
     [0.3, 0.6, 0.3],
-    { name: 'lamp', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 20 } },
+    { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 20 } },
     12,
   );
-  for (const [i, name] of ['floor', 'ball', 'box', 'lamp'].entries())
+  for (const [i, name] of ['floor', 'ball', 'box', 'light'].entries())
     Object.assign(scene.instances[i] as object, { name });
   scene.environment = { type: 'constant', radiance: [0.3, 0.4, 0.5] };
   return scene;
