@@ -2,7 +2,7 @@ import '@glanz/element/define';
 
 // Tests put elements into the page and hear what they say.
 const bytes = (base64: string) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-const heard: { type: string; detail: Record<string, unknown> }[] = [];
+const heard: { type: string; detail: Record<string, unknown>; samples: number | undefined }[] = [];
 const plain = (detail: object | null) =>
   Object.fromEntries(
     Object.entries(detail ?? {}).filter(([, value]) => typeof value !== 'function' && typeof value !== 'object'),
@@ -27,7 +27,12 @@ Object.assign(window, {
     ] as const)
       element.addEventListener(
         type,
-        (event) => void heard.push({ type, detail: plain((event as CustomEvent<object | null>).detail) }),
+        (event) =>
+          void heard.push({
+            type,
+            detail: plain((event as CustomEvent<object | null>).detail),
+            samples: element.viewer?.sampleCount,
+          }),
       );
     for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
     // Children come as markup, as they would in a page.
