@@ -103,6 +103,7 @@ export default defineConfig({
         'react',
         'three',
         'denoise-weights',
+        'create-glanz',
       ].map((name) => project(name, `packages/${name}`, { isolated: ['cli', 'denoise'].includes(name) })),
       project('renderer', 'packages/renderer', { isolated: true, exclude: SHARED }),
       project('renderer-shared', 'packages/renderer', { include: SHARED }),

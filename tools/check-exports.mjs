@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { root } from './pipeline/process.mjs';
 import { Verdicts, runAlone } from './pipeline/report.mjs';
-import { entriesOf, publishedPackages } from './pipeline/workspace.mjs';
+import { entriesOf, packageName, publishedPackages } from './pipeline/workspace.mjs';
 
 /** The entries of a package's tsup.config.ts. */
 async function tsupEntries(p) {
@@ -37,7 +37,7 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
   const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
   const published = manifest.publishConfig?.exports ?? {};
 
-  if (name !== `@glanz/${short}`) say(`is called ${name}, not @glanz/${short}.`);
+  if (name !== packageName(short)) say(`is called ${name}, not ${packageName(short)}.`);
   for (const [key, value] of Object.entries({ type: 'module', license: manifest.glanz?.license ?? 'MIT' }))
     if (manifest[key] !== value) say(`"${key}" must be ${JSON.stringify(value)}.`);
   // Entries that do something when they are imported are named, file by file; nothing else may.

@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { checkPackage, findArrowCycle, readArrows } from './pipeline/imports.mjs';
 import { root } from './pipeline/process.mjs';
 import { Verdicts, runAlone } from './pipeline/report.mjs';
-import { listPackages } from './pipeline/workspace.mjs';
+import { listPackages, packageName } from './pipeline/workspace.mjs';
 
 export async function checkImports(base = root) {
   const verdicts = new Verdicts();
@@ -24,7 +24,7 @@ export async function checkImports(base = root) {
   }
   for (const name of arrows.keys())
     verdicts.expect(
-      all.get(`@glanz/${name}`)?.group === 'packages',
+      all.get(packageName(name))?.group === 'packages',
       `ARCHITECTURE.md: the table of packages names packages/${name}, which does not exist.`,
     );
   return verdicts;

@@ -83,7 +83,8 @@ async function compile(variant, files, folder, verdicts, what) {
     .getSourceFiles()
     .filter(
       ({ fileName }) =>
-        fileName.startsWith(folder) && !/node_modules\/(?!@glanz\/[^/]+\/dist\/)/.test(fileName.slice(folder.length)),
+        fileName.startsWith(folder) &&
+        !/node_modules\/(?!(?:@glanz\/[^/]+|create-glanz)\/dist\/)/.test(fileName.slice(folder.length)),
     );
   const diagnostics = ours.flatMap((source) => [
     ...program.getSyntacticDiagnostics(source),

@@ -117,7 +117,8 @@ export const packageOf = (specifier) =>
     .slice(0, specifier.startsWith('@') ? 2 : 1)
     .join('/');
 
-const SKIP = new Set(['node_modules', 'dist', 'out', '.cache', 'cache', 'api', '.gpu']);
+// What is in `templates` belongs to the projects that are made of it.
+const SKIP = new Set(['node_modules', 'dist', 'out', '.cache', 'cache', 'api', '.gpu', 'templates']);
 
 /** Source files under a folder. */
 export function sourceFiles(folder, extensions = /\.(ts|mts|mjs|vue)$/) {

@@ -12,7 +12,7 @@ export async function packAll(folder = join(root, '.cache', 'packed')) {
   const { code, output } = await capture(command, args, { shell });
   if (code !== 0) throw new TaskError(`pnpm pack failed:\n${output.trim()}`);
   return publishedPackages().map((p) => {
-    const tarball = join(folder, `glanz-${p.short}-${p.manifest.version}.tgz`);
+    const tarball = join(folder, `${p.name.replace('@', '').replace('/', '-')}-${p.manifest.version}.tgz`);
     if (!existsSync(tarball)) throw new TaskError(`pnpm pack made no ${tarball}:\n${output.trim()}`);
     return { ...p, tarball };
   });
@@ -39,7 +39,7 @@ async function install() {
   writeFileSync(join(folder, 'package.json'), JSON.stringify({ name: 'consumer', private: true, type: 'module' }));
   const packages = [];
   for (const p of await packAll()) {
-    const to = join(folder, 'node_modules', '@glanz', p.short);
+    const to = join(folder, 'node_modules', p.name);
     mkdirSync(to);
     const { code, output } = await capture('tar', ['-xzf', p.tarball, '-C', to, '--strip-components=1']);
     if (code !== 0) throw new TaskError(`${p.tarball} cannot be unpacked: ${output.trim()}`);

@@ -22,7 +22,13 @@ export function listPackages(group, base = root) {
 }
 
 /** Packages that run in Node alone, as a whole. */
-export const NODE_PACKAGES = ['cli', 'farm'];
+export const NODE_PACKAGES = ['cli', 'farm', 'create-glanz'];
+
+/** Packages without the scope, because npm looks for them by such a name: `npm create glanz`. */
+const UNSCOPED = ['create-glanz'];
+
+/** The name of the package in a folder of `packages`. */
+export const packageName = (short) => (UNSCOPED.includes(short) ? short : `@glanz/${short}`);
 
 /** The packages that are published. */
 export const publishedPackages = (base = root) =>

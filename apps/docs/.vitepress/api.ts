@@ -13,6 +13,8 @@ const stamp = join(out, '.stamp');
 interface Entry {
   /** `scene/studio` for `@glanz/scene/studio`. */
   readonly name: string;
+  /** What is imported, `@glanz/scene/studio`. */
+  readonly specifier: string;
   readonly source: string;
 }
 
@@ -26,12 +28,14 @@ export interface ApiPage {
 function readEntries(packages: readonly string[]): Entry[] {
   return packages.flatMap((name) => {
     const folder = join(root, 'packages', name);
-    const { exports } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as {
+    const { name: published, exports } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')) as {
+      name: string;
       exports: Record<string, string | Record<string, string>>;
     };
     return Object.entries(exports).flatMap(([path, target]) => {
       const source = typeof target === 'object' ? target['@glanz/source'] : undefined;
-      return source ? [{ name: `${name}${path.slice(1)}`, source: join(folder, source) }] : [];
+      const rest = path.slice(1);
+      return source ? [{ name: `${name}${rest}`, specifier: `${published}${rest}`, source: join(folder, source) }] : [];
     });
   });
 }
@@ -75,7 +79,9 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
     entryFileName: 'index',
     modulesFileName: 'index',
     outputFileStrategy: 'modules',
-    pageTitleTemplates: { module: ({ name }: { name: string }) => `@glanz/${name}` },
+    pageTitleTemplates: {
+      module: ({ name }: { name: string }) => entries.find((entry) => entry.name === name)?.specifier ?? name,
+    },
     // A symbol is documented under the first entry that exports it: the package's main one.
     sortEntryPoints: false,
     useCodeBlocks: true,
@@ -113,7 +119,7 @@ async function generate(entries: readonly Entry[]): Promise<ApiPage[]> {
   fixAnchors();
   return entries
     .filter(({ name }) => kept.has(name))
-    .map(({ name }) => ({ text: `@glanz/${name}`, link: `/api/${name}` }));
+    .map(({ name, specifier }) => ({ text: specifier, link: `/api/${name}` }));
 }
 
 /** A page begins with what can be called, in the order in which its entry exports it; then errors, then types. */

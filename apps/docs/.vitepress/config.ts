@@ -33,6 +33,7 @@ const packages = [
   'wgsl',
   'farm',
   'cli',
+  'create-glanz',
 ];
 const api = await apiReference(packages);
 /** Pages that benchmarks and tests fill: shown once there is something on them. */
@@ -179,7 +180,7 @@ export default defineConfig({
       {
         text: 'Packages',
         link: '/packages/',
-        items: packages.map((name) => ({ text: `@glanz/${name}`, link: `/packages/${name}` })),
+        items: packages.map((folder) => ({ text: packageFacts(folder).name, link: `/packages/${folder}` })),
       },
       { text: 'API reference', link: '/api/', collapsed: true, items: api },
       {

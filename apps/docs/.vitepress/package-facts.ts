@@ -2,12 +2,16 @@
 import { readFileSync } from 'node:fs';
 import type { MarkdownRenderer } from 'vitepress';
 
-/** Version and stability of a package, as its manifest has them. */
-export function packageFacts(name: string): { readonly version: string; readonly stability: string } {
-  const manifest = JSON.parse(
-    readFileSync(new URL(`../../../packages/${name}/package.json`, import.meta.url), 'utf8'),
-  ) as { version: string; glanz: { stability: string } };
-  return { version: manifest.version, stability: manifest.glanz.stability };
+/** Name, version and stability of the package in a folder, as its manifest has them. */
+export function packageFacts(folder: string): {
+  readonly name: string;
+  readonly version: string;
+  readonly stability: string;
+} {
+  const { name, version, glanz } = JSON.parse(
+    readFileSync(new URL(`../../../packages/${folder}/package.json`, import.meta.url), 'utf8'),
+  ) as { name: string; version: string; glanz: { stability: string } };
+  return { name, version, stability: glanz.stability };
 }
 
 /** A markdown-it plugin that puts the line below the heading of a package's page. */

@@ -7,6 +7,7 @@ import { WebIO } from '@gltf-transform/core';
 import { KHRDracoMeshCompression, KHRONOS_EXTENSIONS } from '@gltf-transform/extensions';
 import { expect, test, type Page } from '@playwright/test';
 import draco from 'draco3dgltf';
+import { sees } from './sees';
 import { commandsFrom, fileFrom, installedBy, linesOf, Project, quickStart } from './project';
 
 const only = process.env['GLANZ_NEWCOMER_ONLY'];
@@ -51,27 +52,6 @@ const compressed = async () => {
   document.createExtension(KHRDracoMeshCompression).setRequired(true);
   return io.writeBinary(document);
 };
-
-/** Opens a page and waits until the element shows a path-traced model. @returns What the page complained about. */
-async function sees(
-  browser: Page,
-  address: string,
-  selector: string,
-): Promise<{ readonly seconds: number; readonly complaints: readonly string[] }> {
-  const complaints: string[] = [];
-  browser.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
-  browser.on('pageerror', (error) => complaints.push(`uncaught: ${error.message}`));
-  const from = performance.now();
-  await browser.goto(address);
-  await expect
-    .poll(
-      async () =>
-        (await browser.locator(selector).count()) > 0 ? (await photograph(browser.locator(selector))).colours : 0,
-      { timeout: 120_000, intervals: [100] },
-    )
-    .toBeGreaterThan(300);
-  return { seconds: (performance.now() - from) / 1000, complaints };
-}
 
 /** Leaves a page, so that it asks for nothing more, and stops its server. */
 async function leave(browser: Page): Promise<void> {

@@ -2,7 +2,7 @@ import { execFile, spawn, type ChildProcess } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';
-import { dirname, extname, join } from 'node:path';
+import { basename, dirname, extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const NEXT = join('node_modules', 'next', 'dist', 'bin', 'next');
@@ -70,6 +70,12 @@ export const installedBy = (page: string, has: string, section?: string): string
 /** Lines that a user would have to write. */
 export const linesOf = (code: string): number => code.split('\n').filter((line) => line.trim() !== '').length;
 
+/** The packed packages, as a manifest asks for them. */
+function localTarballs(): Record<string, string> {
+  const tarballs = JSON.parse(process.env['GLANZ_NEWCOMER'] ?? '{}') as Record<string, string>;
+  return Object.fromEntries(Object.entries(tarballs).map(([name, file]) => [name, `file:${file}`]));
+}
+
 /** A fresh folder with a project in it. */
 export class Project {
   readonly folder: string;
@@ -90,8 +96,7 @@ export class Project {
 
   /** The manifest that `npm create vite` writes, with our tarballs, all of them, since no registry has them. */
   manifest(dependencies: Record<string, string>, devDependencies: Record<string, string>): void {
-    const tarballs = JSON.parse(process.env['GLANZ_NEWCOMER'] ?? '{}') as Record<string, string>;
-    const local = Object.fromEntries(Object.entries(tarballs).map(([name, file]) => [name, `file:${file}`]));
+    const local = localTarballs();
     this.write(
       'package.json',
       JSON.stringify(
@@ -108,6 +113,32 @@ export class Project {
         2,
       ),
     );
+  }
+
+  /**
+   * Makes the project by `npm create glanz`, run from the packed package, and lets it ask for our tarballs where it asks
+   * for versions that no registry has.
+   */
+  async create(template: string): Promise<void> {
+    const creator = new Project(`create-${template}`);
+    creator.manifest({}, {});
+    await creator.install();
+    rmSync(this.folder, { recursive: true });
+    await this.timed('npm create glanz', () =>
+      creator.run(join('node_modules', '.bin', 'create-glanz'), [
+        join('..', basename(this.folder)),
+        '--template',
+        template,
+      ]),
+    );
+    const manifest = JSON.parse(readFileSync(join(this.folder, 'package.json'), 'utf8')) as {
+      dependencies: Record<string, string>;
+    };
+    const tarballs = localTarballs();
+    for (const name of Object.keys(manifest.dependencies))
+      if (tarballs[name] !== undefined) manifest.dependencies[name] = tarballs[name];
+    // Overrides of what a project asks for itself must equal it.
+    this.write('package.json', JSON.stringify({ ...manifest, overrides: tarballs }, undefined, 2));
   }
 
   readonly #imports = new Set<string>();
