@@ -11,7 +11,7 @@ await main(async () => {
   };
   return stream(
     process.execPath,
-    [bin('@playwright/test', 'cli.js'), 'test', '--project', 'newcomer', ...process.argv.slice(2)],
+    [bin('@playwright/test', 'cli.js'), 'test', '--project=newcomer', ...process.argv.slice(2)],
     { env, cwd: root },
   );
 });
