@@ -34,7 +34,7 @@ function rasterise(): void {
 const viewer = createViewer(traced, { controls: false });
 viewer.on('sample', ({ samples, target }) => {
   status.textContent = `path-traced: ${samples} of ${target} samples`;
-  traced.hidden = false;
+  traced.classList.add('ready');
 });
 viewer.on('error', ({ message }) => {
   status.textContent = message;
@@ -48,7 +48,7 @@ async function trace(): Promise<void> {
 
 controls.addEventListener('start', () => {
   viewer.paused = true;
-  traced.hidden = true;
+  traced.classList.remove('ready');
   status.textContent = 'rasterised while it moves';
 });
 controls.addEventListener('change', rasterise);

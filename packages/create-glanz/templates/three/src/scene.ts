@@ -1,39 +1,52 @@
 import {
   BoxGeometry,
-  Color,
   CylinderGeometry,
+  DataTexture,
   DirectionalLight,
+  EquirectangularReflectionMapping,
+  FloatType,
   Group,
-  HemisphereLight,
+  LinearFilter,
   Mesh,
   MeshPhysicalMaterial,
   MeshStandardMaterial,
-  PlaneGeometry,
-  RectAreaLight,
+  RGBAFormat,
   Scene,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
-/** A model on a pedestal, on a floor, lit from above and from the left. */
+/** A sky that is light above and fades into a warm grey below, in linear light. */
+function sky(): DataTexture {
+  const [width, height] = [64, 32];
+  const data = new Float32Array(width * height * 4);
+  for (let y = 0; y < height; y++) {
+    // Rows begin at the nadir.
+    const up = Math.max(0, (2 * (y + 0.5)) / height - 1);
+    const color = [0.45 + 0.45 * up, 0.43 + 0.52 * up, 0.4 + 0.65 * up, 1];
+    for (let x = 0; x < width; x++) data.set(color, 4 * (y * width + x));
+  }
+  const texture = new DataTexture(data, width, height, RGBAFormat, FloatType);
+  texture.mapping = EquirectangularReflectionMapping;
+  texture.magFilter = LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** A model on a pedestal and a glass cube, on a floor, under a sky with a sun. */
 export async function createScene(): Promise<Scene> {
   const scene = new Scene();
-  scene.background = new Color('#cfd3d8');
-  scene.add(new HemisphereLight('#ffffff', '#8a8378', 1));
+  scene.environment = scene.background = sky();
+  scene.environmentIntensity = scene.backgroundIntensity = 0.8;
 
-  const sun = new DirectionalLight('#fff4e0', 2);
+  const sun = new DirectionalLight('#fff1d6', 3);
   sun.position.set(2, 4, 3);
   scene.add(sun);
 
-  const softbox = new RectAreaLight('#ffffff', 6, 1.5, 1.5);
-  softbox.position.set(-2, 2, 1);
-  softbox.lookAt(0, 0.4, 0);
-  scene.add(softbox);
-
   const floor = new Mesh(
-    new PlaneGeometry(12, 12),
+    new CylinderGeometry(3, 3, 0.02, 128),
     new MeshStandardMaterial({ color: '#b9b4aa', roughness: 0.6 }),
   );
-  floor.rotation.x = -Math.PI / 2;
+  floor.position.y = -0.01;
   scene.add(floor);
 
   const pedestal = new Mesh(
