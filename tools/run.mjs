@@ -59,6 +59,13 @@ const tasks = {
         cwd: join(root, 'apps/docs'),
       }),
   },
+  'docs:build': {
+    help: 'build the documentation into apps/docs/.vitepress/dist',
+    run: (args) =>
+      node(bin('vitepress', 'bin/vitepress.js', join(root, 'apps/docs')), ['build', join(root, 'apps/docs'), ...args], {
+        cwd: join(root, 'apps/docs'),
+      }),
+  },
   typecheck: {
     help: 'check the types of everything',
     run: (args) => node(bin('typescript-native', 'bin/tsc'), ['--noEmit', '-p', 'tsconfig.json', ...args]),

@@ -120,9 +120,9 @@ describe('serve', () => {
     await new Promise<void>((done) => server.listen(0, '127.0.0.1', done));
     onTestFinished(() => void server.close());
     // Addresses as they are: fetch() would tidy them up.
-    const get = (path: string, method = 'GET') =>
+    const get = (path: string, method = 'GET', headers = {}) =>
       new Promise<readonly [number, string | undefined, string]>((resolve, reject) => {
-        request({ port: (server.address() as AddressInfo).port, path, method }, (response) => {
+        request({ port: (server.address() as AddressInfo).port, path, method, headers }, (response) => {
           let body = '';
           response
             .on('data', (chunk: Buffer) => (body += chunk.toString()))
@@ -146,6 +146,11 @@ describe('serve', () => {
       expect((await get(path))[0], path).toBe(404);
     expect((await get('/%zz'))[0]).toBe(400);
     expect((await get('/', 'POST'))[0]).toBe(405);
+    // A page whose name was made to point here.
+    for (const host of ['example.com', 'localhost.example.com', '127.0.0.1.example.com:80'])
+      expect((await get('/', 'GET', { host }))[0], host).toBe(403);
+    for (const host of ['localhost', 'LOCALHOST:4173', '127.0.0.1', '127.1.2.3:80', '[::1]:80'])
+      expect((await get('/', 'GET', { host }))[0], host).toBe(200);
   });
 
   it('says what is missing, and where it listens', async () => {

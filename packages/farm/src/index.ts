@@ -26,4 +26,5 @@ export {
 } from './worker/renderer-process';
 export { serveRenderer, type JobRenderer } from './worker/serve-renderer';
 export { farmMetrics } from './metrics';
+export { acceptsHost } from './serve/loopback-host';
 export { statusServer, type StatusServer } from './serve/status-server';

@@ -1,4 +1,5 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
+import { request } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { join } from 'node:path';
 import { expect, it, onTestFinished } from 'vitest';
@@ -89,4 +90,19 @@ it('many open pages read the queue as often as one', async () => {
   const { get, reads } = await served();
   await Promise.all(Array.from({ length: 20 }, () => get('/status.json')));
   expect(reads()).toBe(1);
+});
+
+it('on the loopback address answers to names of this machine alone', async () => {
+  const { base } = await served();
+  const codeFor = (host: string) =>
+    new Promise<number>((resolve, reject) =>
+      request(`${base}/status.json`, { headers: { host } }, (response) => {
+        response.resume();
+        resolve(response.statusCode!);
+      })
+        .on('error', reject)
+        .end(),
+    );
+  expect(await codeFor('attacker.example')).toBe(403);
+  expect(await codeFor('localhost:80')).toBe(200);
 });

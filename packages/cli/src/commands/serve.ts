@@ -5,7 +5,7 @@ import type { AddressInfo } from 'node:net';
 import { extname, join, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
-import type { StatusServer } from '@glanz/farm';
+import { acceptsHost, type StatusServer } from '@glanz/farm';
 import { CliError, EXIT } from '../errors';
 import type { CliIo } from '../io';
 import type { ReportOptions } from '../options';
@@ -75,10 +75,11 @@ const builtIn = () => fileURLToPath(new URL('./playground/', import.meta.url));
 
 /** A server of the files of a folder, and of nothing else. */
 export function fileServer(folder: string): Server {
-  return createServer((request, response) => {
+  const server = createServer((request, response) => {
     const answer = async () => {
       const text = (code: number, body: string) =>
         void response.writeHead(code, { 'content-type': 'text/plain; charset=utf-8' }).end(body);
+      if (!acceptsHost(request, server.address())) return text(403, 'This server answers to localhost only.');
       if (request.method !== 'GET' && request.method !== 'HEAD') return text(405, 'Only GET and HEAD.');
       let path: string;
       try {
@@ -106,6 +107,7 @@ export function fileServer(folder: string): Server {
     };
     answer().catch(() => response.destroy());
   });
+  return server;
 }
 
 /** Listens, on any free port for 0. @throws {CliError} `cli/port` */

@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import { farmMetrics } from '../metrics';
 import type { FarmQueue } from '../queue/farm-queue';
 import type { FolderStore } from '../store/folder-store';
+import { acceptsHost } from './loopback-host';
 import { STATUS_PAGE } from './status-page';
 
 /** Nothing from anywhere else: the page's own style and script, its images and data from this server. */
@@ -24,7 +25,7 @@ const FRESH_MS = 500;
 
 /**
  * A read-only page about a farm: progress, the images that were finished last, failures with their reasons, workers.
- * Not listening yet.
+ * Not listening yet. On the loopback address it answers to `localhost` and loopback addresses alone.
  *
  * | address | answers |
  * |---|---|
@@ -54,8 +55,10 @@ export function statusServer(queue: FarmQueue, store: FolderStore): StatusServer
     }
     return cached.text;
   };
-  return createServer((request, response) => {
+  const server = createServer((request, response) => {
     const answer = async (): Promise<void> => {
+      if (!acceptsHost(request, server.address()))
+        return send(response, 403, 'text/plain', 'This server answers to localhost only.\n');
       if (request.method !== 'GET' && request.method !== 'HEAD')
         return send(response, 405, 'text/plain', 'Only GET.\n');
       const { pathname } = new URL(request.url ?? '/', 'http://localhost');
@@ -82,6 +85,7 @@ export function statusServer(queue: FarmQueue, store: FolderStore): StatusServer
       else send(response, 503, 'text/plain; charset=utf-8', `${error.message}\n`);
     });
   });
+  return server;
 }
 
 function send(response: ServerResponse, code: number, type: string, body: string): void {
