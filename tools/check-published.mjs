@@ -1,7 +1,7 @@
 // node tools/check-published.mjs — what the registry would get: publint and attw on the tarballs, and the declarations
 // as consumers see them, with every module resolution that can read an export map, and the directives that frameworks
 // read.
-import { copyFileSync, existsSync, readFileSync, readdirSync, realpathSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, existsSync, readFileSync, readdirSync, realpathSync, writeFileSync } from 'node:fs';
 import { dirname, join, relative } from 'node:path';
 import { bin, capture, root } from './pipeline/process.mjs';
 import { installPacked } from './pipeline/packed.mjs';
@@ -55,6 +55,36 @@ async function checkSnippets(variant, files, { folder }, verdicts) {
   const copies = files.map((file) => join(folder, `${variant.name}-${file}`));
   files.forEach((file, i) => copyFileSync(join(root, 'tools', 'consumers', file), copies[i]));
   await compile(variant, copies, folder, verdicts, files.join(', '));
+}
+
+/** Compiles the projects that `npm create glanz` makes against the packed declarations; Next.js is not there. */
+async function checkTemplates(bundler, { folder }, verdicts) {
+  const at = (path) => realpathSync(join(root, path));
+  const paths = {
+    react: [at('packages/react/node_modules/@types/react')],
+    'react/*': [`${at('packages/react/node_modules/@types/react')}/*`],
+    'react-dom/*': [`${at('packages/react/node_modules/@types/react-dom')}/*`],
+    three: [at('packages/three/node_modules/@types/three')],
+    'three/addons/*.js': [`${at('packages/three/node_modules/@types/three')}/examples/jsm/*`],
+  };
+  for (const name of ['vanilla', 'react', 'three', 'configurator']) {
+    const to = join(folder, `template-${name}`);
+    cpSync(join(folder, 'node_modules/create-glanz/templates', name, 'src'), to, { recursive: true });
+    writeFileSync(join(to, 'styles.d.ts'), "declare module '*.css';\n");
+    const files = readdirSync(to).filter((file) => /\.tsx?$/.test(file));
+    await compile(
+      // As their tsconfig.json has it.
+      {
+        ...bundler,
+        name: `template-${name}`,
+        options: { jsx: 'react-jsx', exactOptionalPropertyTypes: false, noUncheckedIndexedAccess: false, paths },
+      },
+      files.map((file) => join(to, file)),
+      folder,
+      verdicts,
+      files.join(', '),
+    );
+  }
 }
 
 async function compile(variant, files, folder, verdicts, what) {
@@ -247,6 +277,7 @@ export async function checkPublished() {
       verdicts,
     );
   }
+  await checkTemplates(bundler, consumer, verdicts);
   return verdicts;
 }
 
