@@ -1,38 +1,35 @@
 import { Document, WebIO, type Material as GltfMaterial } from '@gltf-transform/core';
-import { ALL_EXTENSIONS, KHRMaterialsEmissiveStrength, KHRMaterialsSpecular } from '@gltf-transform/extensions';
-import type { Material, Scene } from '@glanz/scene';
+import { ALL_EXTENSIONS, KHRMaterialsVariants } from '@gltf-transform/extensions';
+import type { Scene } from '@glanz/scene';
+import { addMaterial } from './to-gltf-material';
 
-type Colour = [number, number, number];
-
-function addMaterial(document: Document, material: Material): GltfMaterial {
-  const p = material.parameters;
-  const [r, g, b] = p.base_color ?? [0.8, 0.8, 0.8];
-  const result = document
-    .createMaterial(material.name)
-    .setBaseColorFactor([r, g, b, 1])
-    .setMetallicFactor(p.base_metalness ?? 0)
-    .setRoughnessFactor(p.specular_roughness ?? 0.3);
-  if (p.specular_weight !== undefined && p.specular_weight !== 1) {
-    result.setExtension(
-      'KHR_materials_specular',
-      document.createExtension(KHRMaterialsSpecular).createSpecular().setSpecularFactor(p.specular_weight),
-    );
-  }
-  const luminance = p.emission_luminance ?? 0;
-  if (luminance > 0) {
-    result.setEmissiveFactor([...(p.emission_color ?? [1, 1, 1])] as Colour);
-    if (luminance !== 1)
-      result.setExtension(
-        'KHR_materials_emissive_strength',
-        document.createExtension(KHRMaterialsEmissiveStrength).createEmissiveStrength().setEmissiveStrength(luminance),
+/** Binds the materials of variants to a primitive. */
+function addVariants(
+  document: Document,
+  scene: Scene,
+  materials: readonly GltfMaterial[],
+): (
+  variants: Readonly<Record<number, number>> | undefined,
+) => ReturnType<KHRMaterialsVariants['createMappingList']> | undefined {
+  if (!scene.variants?.length) return () => undefined;
+  const extension = document.createExtension(KHRMaterialsVariants);
+  const variants = scene.variants.map((name) => extension.createVariant(name));
+  return (indices) => {
+    if (!indices) return undefined;
+    const list = extension.createMappingList();
+    for (const [variant, material] of Object.entries(indices))
+      list.addMapping(
+        extension.createMapping().setMaterial(materials[material]!).addVariant(variants[Number(variant)]!),
       );
-  }
-  return result;
+    return list;
+  };
 }
 
 /**
- * Turns a scene of the kind this package makes into a glTF document: meshes with one material each, cameras, base
- * colour, metalness, roughness, specular weight and emission. Textures, lights and the environment are not written.
+ * Turns a scene of the kind this package makes into a glTF document: meshes with one material each, shared by their
+ * instances where the material is the same; cameras, variants, and the parameters of materials that glTF and its KHR
+ * extensions can say. Textures, lights other than emitting meshes, lenses of cameras and the environment are not
+ * written.
  */
 export function sceneToGltf(scene: Scene): Document {
   const document = new Document();
@@ -40,17 +37,36 @@ export function sceneToGltf(scene: Scene): Document {
   const root = document.createScene(scene.name);
   document.getRoot().setDefaultScene(root);
   const materials = scene.materials.map((material) => addMaterial(document, material));
+  const mappings = addVariants(document, scene, materials);
+  const accessor = (
+    type: 'VEC4' | 'VEC3' | 'SCALAR',
+    array: Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer> | Uint16Array<ArrayBuffer>,
+  ) => document.createAccessor().setType(type).setArray(array).setBuffer(buffer);
+  const attributes = scene.meshes.map((mesh) => ({
+    position: accessor('VEC3', mesh.positions),
+    normal: mesh.normals ? accessor('VEC3', mesh.normals) : undefined,
+    tangent: mesh.tangents ? accessor('VEC4', mesh.tangents) : undefined,
+    indices: accessor('SCALAR', mesh.positions.length / 3 < 65535 ? Uint16Array.from(mesh.indices) : mesh.indices),
+  }));
+  const made = new Map<string, ReturnType<Document['createMesh']>>();
   for (const instance of scene.instances) {
-    const mesh = scene.meshes[instance.mesh]!;
-    const accessor = (type: 'VEC3' | 'SCALAR', array: Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>) =>
-      document.createAccessor().setType(type).setArray(array).setBuffer(buffer);
-    const primitive = document
-      .createPrimitive()
-      .setAttribute('POSITION', accessor('VEC3', mesh.positions))
-      .setIndices(accessor('SCALAR', mesh.indices))
-      .setMaterial(materials[instance.material]!);
-    if (mesh.normals) primitive.setAttribute('NORMAL', accessor('VEC3', mesh.normals));
-    const node = document.createNode(instance.name).setMesh(document.createMesh(mesh.name).addPrimitive(primitive));
+    const key = JSON.stringify([instance.mesh, instance.material, instance.variants]);
+    let mesh = made.get(key);
+    if (!mesh) {
+      const { position, normal, tangent, indices } = attributes[instance.mesh]!;
+      const primitive = document
+        .createPrimitive()
+        .setAttribute('POSITION', position)
+        .setIndices(indices)
+        .setMaterial(materials[instance.material]!);
+      if (normal) primitive.setAttribute('NORMAL', normal);
+      if (tangent) primitive.setAttribute('TANGENT', tangent);
+      const list = mappings(instance.variants);
+      if (list) primitive.setExtension('KHR_materials_variants', list);
+      mesh = document.createMesh(scene.meshes[instance.mesh]!.name).addPrimitive(primitive);
+      made.set(key, mesh);
+    }
+    const node = document.createNode(instance.name).setMesh(mesh);
     node.setMatrix(Array.from(instance.transform) as Parameters<typeof node.setMatrix>[0]);
     root.addChild(node);
   }

@@ -63,6 +63,15 @@ export class MeshBuilder {
     }
   }
 
+  /** Builds a shape inside out: the wall of a cavity. */
+  inverted(shape: () => void): void {
+    const [vertices, triangles] = [this.#normals.length, this.#triangles.length];
+    shape();
+    const [n, t] = [this.#normals.view, this.#triangles.view];
+    for (let i = vertices; i < n.length; i++) n[i] = -n[i]!;
+    for (let i = triangles; i < t.length; i += 3) [t[i + 1], t[i + 2]] = [t[i + 2]!, t[i + 1]!];
+  }
+
   /** The mesh, in metres. */
   build(name: string): Mesh {
     return {
