@@ -47,6 +47,14 @@ const tasks = {
     help: 'render a folder of models into one page: npm run contact-sheet -- FOLDER',
     run: (args) => node(join(root, 'tools/contact-sheet/src/main.mjs'), args),
   },
+  gallery: {
+    help: 'render the images of the gallery into out/gallery (--only ID, --scale F, --samples N, --list)',
+    run: (args) => node(join(root, 'tools/gallery/src/main.mjs'), args),
+  },
+  'gallery:pack': {
+    help: 'bundle the gallery for bare GPU machines into .gallery-bench/',
+    run: (args) => node(join(root, 'tools/gallery/src/pack.mjs'), args),
+  },
   newcomer: {
     help: "a newcomer's first minutes, timed: packed packages, a fresh project, the README's quick start, pixels",
     build: true,

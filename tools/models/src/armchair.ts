@@ -27,7 +27,7 @@ function back(u: number, v: number): readonly [number, number, number] {
   const thick = (38 + 24 * swell) * end;
   const across = thick * round(Math.cos(phi), 0.75);
   const height = (half - 14 * (1 - swell)) * (0.9 + 0.1 * end) * round(Math.sin(phi), 0.42) * end;
-  const lean = 46 * ((middle + height - bottom) / (top - bottom)) ** 1.4;
+  const lean = 46 * Math.max((middle + height - bottom) / (top - bottom), 0) ** 1.4;
   const radius = 395 + across + lean;
   return [radius * Math.sin(angle), radius * 0.94 * Math.cos(angle), middle + height];
 }

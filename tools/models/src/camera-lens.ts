@@ -13,9 +13,9 @@ function ribbed(b: MeshBuilder, radius: number, depth: number, from: number, to:
     (u, v) => {
       const a = 2 * Math.PI * u;
       const t = Math.min(Math.max(v, 0), 1);
-      const end = Math.sqrt(Math.max(1 - Math.abs(2 * t - 1) ** 16, 0));
-      const wave = Math.min(Math.max(0.5 + 1.6 * Math.cos(count * a), 0), 1);
-      const r = (radius - depth * (1 - wave) * Math.min(4 * end ** 8, 1)) * (0.9 + 0.1 * end) - (end < 1e-6 ? 3 : 0);
+      const inside = Math.max(1 - Math.abs(2 * t - 1) ** 10, 0);
+      const wave = 0.5 + 0.5 * Math.cos(count * a);
+      const r = radius - depth * (1 - wave * wave) * inside - 1.4 * (1 - inside) ** 3;
       return [r * Math.cos(a), r * Math.sin(a), from + (to - from) * t];
     },
     { nu: count * 12, nv: 36, closeU: true },

@@ -2,7 +2,7 @@ import type { Scene } from '@glanz/scene';
 import { lathe } from './shapes/lathe';
 import { fractalNoise } from './shapes/noise';
 import { surface } from './shapes/surface';
-import { spline, tube } from './shapes/tube';
+import { softSpline, spline, tube } from './shapes/tube';
 import { BRASS, emitter, matte, metal, plastic, translucent } from './stage/materials';
 import { at, Stage } from './stage/stage';
 
@@ -51,8 +51,9 @@ export function createCandles(): Scene {
             // Below the middle, the outside, over the rim, and into the pool.
             const path: [number, number][] = [
               [0, 0],
-              [0.97, 0],
-              [1, 1.2],
+              [0.6, 0],
+              [1, 0],
+              [1, rim * 0.1],
               [drip, rim * 0.5],
               [drip, rim - 3],
               [0.96, rim],
@@ -61,9 +62,9 @@ export function createCandles(): Scene {
               [0.4, rim - 8.5],
               [0, height - 9],
             ];
-            const f = spline(path.map(([r, y]) => [r * radius, y, 0] as const));
+            const f = softSpline(path.map(([r, y]) => [r * radius, y, 0] as const));
             const [r, y] = f(t);
-            return [Math.max(r, 0) * Math.cos(a), Math.max(r, 0) * Math.sin(a), Math.max(y, 0)];
+            return [r * Math.cos(a), r * Math.sin(a), y];
           },
           { nu: 128, nv: 120, closeU: true },
         );

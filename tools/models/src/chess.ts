@@ -140,7 +140,7 @@ export function createChess(): Scene {
     roundedBox(b, { at: [0, 0, -20], size: [SQUARE * 8 + 44, SQUARE * 8 + 44, 14], corner: 4, edge: 3 }),
   );
   stage.variants(clear, { clear, frosted });
-  stage.sweep(matte('backdrop', [0.3, 0.3, 0.32]), {
+  stage.sweep(matte('backdrop', [0.5, 0.5, 0.52]), {
     front: 1200,
     back: 900,
     radius: 500,
@@ -154,7 +154,7 @@ export function createChess(): Scene {
     to: [0, 20, 0],
     width: 700,
     height: 300,
-    radiance: 6.5,
+    radiance: 8,
     gradient: 8,
   });
   stage.softbox({

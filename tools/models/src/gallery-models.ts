@@ -2,6 +2,7 @@ import type { Scene } from '@glanz/scene';
 import { createAmplifier } from './amplifier';
 import { createArmchair } from './armchair';
 import { createBubbles } from './bubbles';
+import { createButtonPanel } from './button-panel';
 import { createCameraLens } from './camera-lens';
 import { createCandles } from './candles';
 import { createChess } from './chess';
@@ -20,6 +21,7 @@ export const GALLERY_MODELS: Readonly<Record<string, () => Scene>> = {
   amplifier: createAmplifier,
   armchair: createArmchair,
   bubbles: createBubbles,
+  'button-panel': createButtonPanel,
   'camera-lens': createCameraLens,
   candles: createCandles,
   chess: createChess,

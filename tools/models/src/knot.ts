@@ -44,7 +44,7 @@ export function createKnot(): Scene {
   stage.add(
     'Knot',
     jade,
-    (b) => surface(b, skin, { nu: 72, nv: 420, closeU: true, closeV: true }),
+    (b) => surface(b, skin, { nu: 72, nv: 420, closeU: true, closeV: true, flip: true }),
     at(0, 53.5, 0),
     rotation('y', -18),
     rotation('x', 82),

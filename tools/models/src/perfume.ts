@@ -53,7 +53,7 @@ export function createPerfume(): Scene {
     turn,
   );
   const gold = metal('cap gold', GOLD, 0.16);
-  const tubeGlass = glass('tube', { color: [0.95, 0.95, 0.95], ior: 1.4 });
+  const tubeGlass = glass('tube', { ior: 1.4 });
   stage.add(
     'Dip tube',
     tubeGlass,
@@ -92,35 +92,50 @@ export function createPerfume(): Scene {
       ),
     turn,
   );
-  // The emblem on the front: a ring and a dot, raised.
+  // The label on the front: paper, with a ring and two lines pressed in gold.
+  const front = [turn, at(0, 35, DEPTH / 2), rotation('x', 90)] as const;
   stage.add(
-    'Emblem',
+    'Label',
+    matte('label paper', [0.82, 0.78, 0.7], { specular_weight: 0.6, specular_roughness: 0.55 }),
+    (b) => roundedBox(b, { at: [0, 0, -0.1], size: [27, 33, 0.5], corner: 0.8, edge: 0.12 }),
+    ...front,
+  );
+  stage.add(
+    'Label print',
     gold,
     (b) => {
       latheRing(
         b,
         [
-          [6.4, -0.2],
-          [7.3, -0.2],
-          [7.3, 0.5, 0.25],
-          [6.4, 0.5, 0.25],
+          [4.6, 0.3],
+          [5.3, 0.3],
+          [5.3, 0.62, 0.12],
+          [4.6, 0.62, 0.12],
         ],
         96,
       );
       lathe(
         b,
         [
-          [0, -0.2],
-          [2.1, -0.2],
-          [2.1, 0.6, 0.4],
-          [0, 0.6],
+          [0, 0.3],
+          [1.7, 0.3],
+          [1.7, 0.66, 0.16],
+          [0, 0.66],
         ],
         48,
       );
+      b.transformFrom(0, (x, y, z, w) => [x, y + 5 * w, z]);
+      for (const [y, width] of [
+        [-6, 15],
+        [-8.6, 10],
+      ] as const)
+        roundedBox(b, { at: [0, y, 0.3], size: [width, 0.8, 0.28], corner: 0.2, edge: 0.08 });
+      for (const side of [-1, 1]) {
+        roundedBox(b, { at: [12 * side, 0, 0.3], size: [0.35, 30, 0.22], corner: 0.1, edge: 0.05 });
+        roundedBox(b, { at: [0, 15 * side, 0.3], size: [24.35, 0.35, 0.22], corner: 0.1, edge: 0.05 });
+      }
     },
-    turn,
-    at(0, 36, DEPTH / 2),
-    rotation('x', 90),
+    ...front,
   );
   stage.variants(amber, {
     amber,
@@ -132,7 +147,7 @@ export function createPerfume(): Scene {
     rose: metal('cap rose gold', [0.95, 0.64, 0.52], 0.16),
     'deep blue': metal('cap silver', SILVER, 0.14),
   });
-  stage.sweep(matte('backdrop', [0.72, 0.62, 0.53]), { front: 900, back: 420, radius: 320, height: 1200, width: 2600 });
+  stage.sweep(matte('backdrop', [0.46, 0.37, 0.3]), { front: 900, back: 420, radius: 320, height: 1200, width: 2600 });
   stage.softbox({
     name: 'Key',
     at: [-330, 300, 180],

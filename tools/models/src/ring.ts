@@ -114,7 +114,7 @@ export function createRing(): Scene {
       color,
       depth: 0.006,
       ior,
-      extra: { transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: abbe },
+      extra: { transmission_dispersion_scale: 20 / abbe },
     });
   const diamond = gem('diamond', [0.99, 0.99, 0.985], 2.417, 33);
   stage.add(
@@ -141,7 +141,16 @@ export function createRing(): Scene {
     height: 320,
     width: 900,
   });
-  stage.softbox({ name: 'Key', at: [-60, 80, 40], to: [0, 12, 0], width: 55, height: 70, radiance: 6.5, gradient: 8 });
+  stage.softbox({ name: 'Key', at: [-60, 80, 40], to: [0, 12, 0], width: 80, height: 90, radiance: 5, gradient: 8 });
+  stage.softbox({
+    name: 'Front',
+    at: [30, 70, 150],
+    to: [0, 10, 0],
+    width: 140,
+    height: 40,
+    radiance: 1.6,
+    gradient: 6,
+  });
   stage.softbox({ name: 'Right', at: [75, 45, 10], to: [0, 12, 0], width: 26, height: 80, radiance: 7, gradient: 5 });
   stage.softbox({ name: 'Behind', at: [10, 70, -80], to: [0, 12, 0], width: 90, height: 30, radiance: 6 });
   for (const [i, [x, y, z]] of (

@@ -13,26 +13,39 @@ const smooth = (a: number, b: number, x: number) => {
 };
 const powered = (x: number, e: number) => Math.sign(x) * Math.abs(x) ** e;
 
-/** Cross-section of the body at v (0 nose, 1 tail), by the angle u: y to the side, z up. */
-function body(u: number, v: number): readonly [number, number, number] {
+/** A point of the body at v (0 nose, 1 tail) and the angle u around it: x along, y to the side, z up. */
+function body(u: number, v: number, offset = 0): readonly [number, number, number] {
   const s = Math.min(Math.max(v, 0), 1);
-  // Round at the nose, drawn out at the tail.
-  const nose = Math.sqrt(Math.min(s / 0.42, 1) * (2 - Math.min(s / 0.42, 1)));
-  const tail = 1 - smooth(0.3, 1, s) ** 1.6 * 0.86;
-  const end = Math.sqrt(Math.max(1 - Math.max((s - 0.93) / 0.07, 0) ** 2, 0));
+  // Round at the nose; cut off short at the tail.
+  const q = Math.min(s / 0.36, 1);
+  const nose = (q * (2 - q)) ** 0.5;
+  const tail = 1 - 0.34 * smooth(0.4, 1.05, s) ** 1.4;
+  const end = Math.max(1 - Math.max((s - 0.94) / 0.06, 0) ** 2.6, 0) ** 0.5;
   const e = nose * tail * end;
   const theta = 2 * Math.PI * u;
   const [c, t] = [Math.cos(theta), Math.sin(theta)];
-  // The roof is rounder than the flanks.
-  const side = powered(c, 0.86);
-  const up = powered(t, t > 0 ? 0.94 : 0.6);
-  const shoulder = Math.exp(-(((t - 0.36) / 0.13) ** 2)) * smooth(0.1, 0.4, s) * (1 - smooth(0.8, 0.98, s));
-  const hollow = Math.exp(-(((t + 0.02) / 0.24) ** 2)) * smooth(0.2, 0.5, s) * (1 - smooth(0.72, 0.97, s));
-  const width = WIDTH * e * (1 + 0.07 * shoulder - 0.13 * hollow) * (t > 0 ? 1 - 0.3 * t * t : 1);
-  const canopy = Math.exp(-(((s - 0.46) / 0.2) ** 2)) * Math.max(t, 0) ** 2.2;
-  const z = t > 0 ? HEIGHT * (0.62 * e * up + 0.42 * canopy * Math.sqrt(e)) : 34 * e * up;
-  const rise = 20 * smooth(0.45, 1, s);
-  return [LENGTH * (s - 0.5), width * side, 38 + z + rise];
+  const side = powered(c, 0.8);
+  const up = powered(t, t > 0 ? 0.9 : 0.5);
+  const at = (centre: number, width: number, x: number) => Math.exp(-(((x - centre) / width) ** 2));
+  const along = smooth(0.1, 0.3, s) * (1 - smooth(0.82, 0.98, s));
+  // A crease at the shoulder, a hollow flank below it, arches before and behind.
+  const shoulder = at(0.42, 0.1, t) * along;
+  const hollow = at(0.05, 0.26, t) * smooth(0.26, 0.44, s) * (1 - smooth(0.6, 0.76, s));
+  const arches = (at(0.2, 0.1, s) + 1.25 * at(0.8, 0.115, s)) * at(0.16, 0.34, t);
+  const width = WIDTH * e * (1 + 0.045 * shoulder - 0.15 * hollow + 0.1 * arches) * (t > 0 ? 1 - 0.3 * t * t : 1);
+  const hips = (at(0.2, 0.09, s) + 1.2 * at(0.8, 0.11, s)) * at(0.62, 0.26, t) * e;
+  const canopy = at(0.5, 0.19, s) * Math.max(t, 0) ** 2;
+  const z = t > 0 ? HEIGHT * (0.5 * e * up + 0.44 * canopy * Math.sqrt(e) + 0.085 * hips) : 30 * e * up;
+  return [LENGTH * (s - 0.5), (width + offset) * side, 37 + z + offset * Math.max(t, 0)];
+}
+
+/** The canopy: a leaf of dark glass on the roof, at v along it and u across. */
+function canopy(u: number, v: number): readonly [number, number, number] {
+  const t = Math.min(Math.max(v, 0), 1);
+  const across = 2 * Math.min(Math.max(u, 0), 1) - 1;
+  const half = 0.118 * Math.max(1 - Math.abs(2 * t - 1) ** 2.4, 0) ** 0.62;
+  const edge = Math.max(1 - across ** 12, 0) * Math.max(1 - Math.abs(2 * t - 1) ** 24, 0);
+  return body(0.25 + across * half, 0.3 + 0.5 * t, 1.1 * edge - 0.5);
 }
 
 /** A streamlined body, the kind on which paint makers show car paint: metallic base under a clear coat. */
@@ -42,6 +55,9 @@ export function createSpeedform(): Scene {
     coated(metal(name, color, roughness), 0.015);
   const red = paint('paint red', [0.62, 0.012, 0.018]);
   stage.add('Body', red, (b) => surface(b, (u, v) => body(u, v), { nu: 260, nv: 300, closeU: true, flip: true }));
+  stage.add('Canopy', coated(plastic('canopy', [0.004, 0.004, 0.005], 0.1), 0), (b) =>
+    surface(b, canopy, { nu: 90, nv: 180, flip: true }),
+  );
   stage.variants(red, {
     red,
     blue: paint('paint blue', [0.01, 0.09, 0.45]),

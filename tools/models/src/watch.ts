@@ -72,10 +72,10 @@ const THICKNESS = 9.4;
 function strap(side: 1 | -1): (u: number, v: number) => readonly [number, number, number] {
   return (u, v) => {
     const t = Math.min(Math.max(v, 0), 1);
-    const end = Math.min(1, Math.sqrt(Math.max(1 - ((t - 0.5) / 0.5) ** 40, 0)) + 0.0001);
-    const angle = (24 + 154 * t) * (Math.PI / 180);
-    const [ry, rz] = [26.5, 27.5];
-    const [cy, cz] = [0, -24.5];
+    const end = Math.min(1, Math.sqrt(Math.max(1 - ((t - 0.5) / 0.5) ** 40, 0)));
+    const angle = (51 + 131 * t) * (Math.PI / 180);
+    const [ry, rz] = [27.5, 24];
+    const [cy, cz] = [0, -20.6];
     const half = (9.9 - 1.6 * t) * end;
     const thick = (2.4 - 1.1 * Math.min(3 * t, 1) + 0.35 * Math.exp(-((t / 0.12) ** 2))) * end;
     const phi = 2 * Math.PI * u;
@@ -84,7 +84,7 @@ function strap(side: 1 | -1): (u: number, v: number) => readonly [number, number
     const outwards = thick * round(Math.sin(phi), 0.6);
     // Grain of the leather.
     const grain = 0.09 * noise(x * 1.5, angle * 38, 3) + 0.05 * noise(x * 3.7, angle * 97, 9);
-    const r = outwards + grain * Math.max(Math.sin(phi), 0);
+    const r = outwards + end * grain * Math.max(Math.sin(phi), 0);
     return [x, side * (cy + (ry + r) * Math.sin(angle)), cz + (rz + r) * Math.cos(angle)];
   };
 }
@@ -173,7 +173,7 @@ export function createWatch(): Scene {
             const end = Math.sqrt(Math.max(1 - Math.abs(2 * t - 1) ** 10, 0));
             const phi = 2 * Math.PI * u;
             const round = (x: number, e: number) => Math.sign(x) * Math.abs(x) ** e;
-            const y = 11 + 14.5 * t;
+            const y = 10.5 + 13.2 * t;
             return [
               sx * (11.6 - 0.2 * t) + 1.55 * end * round(Math.cos(phi), 0.35),
               sy * y * 1.0,
@@ -294,6 +294,7 @@ export function createWatch(): Scene {
     part(name, leather, (b) => surface(b, strap(side), { nu: 120, nv: 260, closeU: true, flip: side < 0 }));
     part(`${name} stitches`, thread, (b) => stitches(b, side));
   }
+  stage.rest();
   stage.variants(dial, {
     blue: dial,
     black: metal('dial black', [0.014, 0.014, 0.015], 0.34, { specular_roughness_anisotropy: 0.75 }),

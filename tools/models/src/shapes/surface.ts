@@ -32,7 +32,7 @@ export function surface(
   const rows = closeV ? nv : nv + 1;
   const sign = flip ? -1 : 1;
   const limited = (x: number, closed: boolean) => (closed ? x : Math.min(Math.max(x, 0), 1));
-  const normal = (u: number, v: number): Point => {
+  const normal = (u: number, v: number, attempt = 0): Point => {
     const along = (du: number, dv: number) =>
       subtract(
         [0, 0, 0],
@@ -41,6 +41,9 @@ export function surface(
       );
     const n = cross([0, 0, 0], along(EPSILON, 0), along(0, EPSILON));
     const length = Math.hypot(...n);
+    // Where a derivative vanishes, as at tips, that of a point nearer to the middle counts.
+    if (!(length > 1e-12) && attempt < 20)
+      return normal(closeU ? u : u + (0.5 - u) * 0.01, closeV ? v : v + (0.5 - v) * 0.01, attempt + 1);
     return [(sign * n[0]) / length, (sign * n[1]) / length, (sign * n[2]) / length];
   };
   const shrinks = (v: number) => {

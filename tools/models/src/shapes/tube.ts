@@ -80,6 +80,24 @@ export function tube(builder: MeshBuilder, curve: Curve, radius: number, steps: 
   }
 }
 
+/** A quadratic B-spline: smooth, begins and ends at the first and the last point, never leaves their hull; t in [0, 1]. */
+export function softSpline(points: readonly Vector[]): Curve {
+  const n = points.length - 2;
+  return (t) => {
+    const s = Math.min(Math.max(t, 0), 1) * n;
+    const i = Math.min(Math.floor(s), n - 1);
+    const f = s - i;
+    const b = points[i + 1]!;
+    const [before, after] = [points[i]!, points[i + 2]!];
+    const at = (k: 0 | 1 | 2) => {
+      const from = i === 0 ? before[k] : (before[k] + b[k]) / 2;
+      const to = i === n - 1 ? after[k] : (b[k] + after[k]) / 2;
+      return from * (1 - f) ** 2 + 2 * b[k] * f * (1 - f) + to * f * f;
+    };
+    return [at(0), at(1), at(2)];
+  };
+}
+
 /** A Catmull-Rom spline through points, centripetal enough for evenly spaced ones; t in [0, 1]. */
 export function spline(points: readonly Vector[]): Curve {
   const n = points.length - 1;

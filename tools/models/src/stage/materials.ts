@@ -83,24 +83,22 @@ export const translucent = (
 });
 
 /** Cloth with fibres that scatter light at grazing angles. */
-export const cloth = (
-  name: string,
-  base_color: Colour,
-  fuzz_color: Colour,
-  fuzz_weight = 0.8,
-  fuzz_roughness = 0.5,
-): Material => ({
-  name,
-  parameters: {
-    base_color,
-    base_metalness: 0,
-    specular_roughness: 0.9,
-    specular_weight: 0.2,
-    fuzz_color,
-    fuzz_weight,
-    fuzz_roughness,
-  },
-});
+export const cloth = (name: string, base_color: Colour, fuzz: Colour, weight = 0.8, fuzz_roughness = 0.5): Material => {
+  // The brightest channel of the fuzz is part of its weight, as in glTF.
+  const brightest = Math.max(...fuzz);
+  return {
+    name,
+    parameters: {
+      base_color,
+      base_metalness: 0,
+      specular_roughness: 0.9,
+      specular_weight: 0.2,
+      fuzz_color: [fuzz[0] / brightest, fuzz[1] / brightest, fuzz[2] / brightest],
+      fuzz_weight: weight * brightest,
+      fuzz_roughness,
+    },
+  };
+};
 
 /** A clear lacquer over another material: glTF's coat, of index 1.5. */
 export const coated = ({ name, parameters }: Material, coat_roughness = 0.02, coat_weight = 1): Material => ({

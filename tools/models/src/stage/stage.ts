@@ -103,6 +103,19 @@ export class Stage {
     return mesh;
   }
 
+  /** Lowers or raises the parts from the instance `first` on until the lowest of their vertices lies at y, millimetres. */
+  rest(first = 0, y = 0): void {
+    const instances = this.scene.instances.slice(first);
+    let lowest = Infinity;
+    for (const { mesh, transform: m } of instances) {
+      const { positions: p } = this.scene.meshes[mesh]!;
+      for (let i = 0; i < p.length; i += 3)
+        lowest = Math.min(lowest, m[1]! * p[i]! + m[5]! * p[i + 1]! + m[9]! * p[i + 2]! + m[13]!);
+    }
+    for (const instance of instances)
+      instance.transform = multiply(at(0, y - lowest * 1000, 0), [...(instance.transform as number[])]);
+  }
+
   /** Gives the material of one name another one in each variant, by the variant's name. */
   variants(material: Material, variants: Readonly<Record<string, Material>>): void {
     const index = this.material(material);
