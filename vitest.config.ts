@@ -108,7 +108,7 @@ export default defineConfig({
       project('renderer', 'packages/renderer', { isolated: true, exclude: SHARED }),
       project('renderer-shared', 'packages/renderer', { include: SHARED }),
       project('docs', 'apps/docs'),
-      ...['models', 'bench', 'reference', 'gpu', 'operations', 'pipeline', 'redis'].map((name) =>
+      ...['models', 'gallery', 'bench', 'reference', 'gpu', 'operations', 'pipeline', 'redis'].map((name) =>
         project(`tools-${name}`, `tools/${name}`, { isolated: ['bench', 'pipeline'].includes(name) }),
       ),
       project('playground', 'apps/playground'),

@@ -15,7 +15,7 @@ Renders the images of the gallery with glanz render and writes them, with the mo
   --only ID,ID    These images only; --list prints all of them.
   --scale F       Multiplies the size, 1600x1000. Default 1.
   --samples N     Samples per pixel. Default: what the manifest says.
-  --denoise NAME  fast, balanced, best or off. Default best.
+  --denoise NAME  fast, balanced or off. Default balanced.
   --out FOLDER    Default out/gallery.
   --models        Writes the models and their cameras, and renders nothing.
   --docs          Writes the images of FOLDER as WebP into the documentation, with their facts.

@@ -23,7 +23,7 @@ export const DEFAULTS = {
   env: 'none',
   samples: 256,
   'max-depth': 12,
-  denoise: 'best',
+  denoise: 'balanced',
 } as const;
 
 const GLASS = { 'max-depth': 24, samples: 512 } as const;
@@ -70,8 +70,8 @@ export const GALLERY: readonly GalleryImage[] = [
   },
   {
     id: 'lamps',
-    title: 'Room of lamps',
-    alt: 'A dark room with a polished floor in which a hundred and twenty glass lamps hang at many heights',
+    title: 'Room of lights',
+    alt: 'A dark room with a polished floor in which globes of opal glass hang at many heights',
     model: 'lamps',
     camera: 'Room',
     options: { samples: 768, 'max-depth': 10 },

@@ -109,7 +109,7 @@ export function createAmplifier(): Scene {
       ),
     at(186, 0, 44),
   );
-  const glow = emitter('meter light', 1.5, [0.42, 0.75, 1]);
+  const glow = emitter('meter light', 0.75, [0.42, 0.75, 1]);
   const ink = matte('ink', [0.004, 0.006, 0.01]);
   for (const [i, x] of [-142, -38].entries()) {
     const name = i === 0 ? 'Left meter' : 'Right meter';
@@ -173,7 +173,7 @@ export function createAmplifier(): Scene {
         ),
       at(x, 0, 110),
     );
-  stage.sweep(coated(plastic('sideboard', [0.115, 0.05, 0.024], 0.45), 0.16), {
+  stage.sweep(coated(plastic('sideboard', [0.24, 0.11, 0.05], 0.45), 0.16), {
     front: 1200,
     back: 700,
     radius: 200,
@@ -182,30 +182,39 @@ export function createAmplifier(): Scene {
   });
   stage.softbox({
     name: 'Window',
-    at: [-620, 520, 700],
-    to: [0, 80, 100],
-    width: 380,
-    height: 520,
-    radiance: 3.6,
+    at: [-700, 620, 900],
+    to: [0, 80, 160],
+    width: 900,
+    height: 620,
+    radiance: 3.4,
     gradient: 8,
     color: [1, 0.96, 0.9],
   });
   stage.softbox({
+    name: 'Front',
+    at: [500, 300, 1500],
+    to: [0, 80, 160],
+    width: 1100,
+    height: 420,
+    radiance: 1.8,
+    gradient: 8,
+  });
+  stage.softbox({
     name: 'Above',
-    at: [120, 760, 160],
-    to: [0, 80, 100],
-    width: 900,
-    height: 220,
-    radiance: 2.6,
+    at: [120, 860, 60],
+    to: [0, 60, 100],
+    width: 1100,
+    height: 420,
+    radiance: 3,
     gradient: 6,
   });
   stage.softbox({
     name: 'Right',
-    at: [760, 260, 480],
+    at: [860, 260, 480],
     to: [0, 80, 100],
-    width: 120,
+    width: 160,
     height: 500,
-    radiance: 3,
+    radiance: 4,
     gradient: 5,
   });
   stage.camera('Front', {

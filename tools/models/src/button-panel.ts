@@ -189,7 +189,7 @@ export function createButtonPanel(): Scene {
   stage.camera('Close', {
     direction: [-0.5, 0.8, 1],
     around: 'Button 1',
-    margin: -0.15,
+    margin: 0,
     focalLength: 95,
     lensRadius: 1.1,
   });

@@ -3,54 +3,53 @@ import { lathe } from './shapes/lathe';
 import { panel, roundedBox } from './shapes/boxes';
 import { randomSequence } from './shapes/noise';
 import { sphere, surface } from './shapes/surface';
-import { BRASS, coated, emitter, glass, matte, metal, plastic } from './stage/materials';
+import { BRASS, coated, emitter, matte, metal, plastic } from './stage/materials';
 import { at, Stage } from './stage/stage';
-import { rotation } from './stage/transform';
+import { rotation, scaling, type Matrix } from './stage/transform';
 
-/** A dark room with a polished floor under a hundred and twenty hanging lights. Millimetres; four metres high. */
+/** A dark room with a polished floor under hanging globes of opal glass. Millimetres; four metres high. */
 export function createLamps(): Scene {
   const stage = new Stage('Room of lamps');
   const random = randomSequence(23);
   const [W, D, H] = [9000, 9000, 3400];
-  const wall = plastic('wall', [0.06, 0.075, 0.1], 0.45);
-  const floor = coated(plastic('floor', [0.018, 0.017, 0.017], 0.3), 0.06);
+  const wall = plastic('wall', [0.1, 0.13, 0.19], 0.5);
+  const floor = coated(plastic('floor', [0.03, 0.026, 0.024], 0.3), 0.05);
   stage.add('Floor', floor, (b) => surface(b, (u, v) => [(u - 0.5) * W, (v - 0.5) * D, 0], { nu: 1, nv: 1 }));
   stage.add('Ceiling', matte('ceiling', [0.05, 0.05, 0.055]), (b) => panel(b, W, D), at(0, H, 0), rotation('x', 180));
   stage.add('Back wall', wall, (b) => panel(b, W, H), at(0, H / 2, -D / 2), rotation('x', 90));
   stage.add('Left wall', wall, (b) => panel(b, D, H), at(-W / 2, H / 2, 0), rotation('y', 90), rotation('x', 90));
   stage.add('Right wall', wall, (b) => panel(b, D, H), at(W / 2, H / 2, 0), rotation('y', -90), rotation('x', 90));
-  const warm = emitter('bulb warm', 30, [1, 0.55, 0.2]);
-  const amber = emitter('bulb amber', 24, [1, 0.4, 0.1]);
-  const white = emitter('bulb white', 26, [1, 0.74, 0.48]);
-  const shade = glass('shade glass', { color: [1, 1, 1], ior: 1.4, extra: { geometry_thin_walled: true } });
+  const opal = [
+    emitter('opal warm', 3.4, [1, 0.6, 0.27]),
+    emitter('opal amber', 2.8, [1, 0.44, 0.13]),
+    emitter('opal white', 3, [1, 0.78, 0.54]),
+  ];
   const brass = metal('socket brass', BRASS, 0.25);
   const cord = matte('cord', [0.02, 0.02, 0.02]);
-  const parts: Record<string, number | undefined> = {};
+  const parts = new Map<string, number>();
   const put = (
     key: string,
     name: string,
     material: typeof wall,
     shape: Parameters<Stage['add']>[2],
-    x: number,
-    y: number,
-    z: number,
+    ...place: Matrix[]
   ) => {
-    const mesh = parts[key];
-    if (mesh === undefined) parts[key] = stage.add(name, material, shape, at(x, y, z));
-    else stage.place(name, material, mesh, at(x, y, z));
+    const mesh = parts.get(key);
+    if (mesh === undefined) parts.set(key, stage.add(name, material, shape, ...place));
+    else stage.place(name, material, mesh, ...place);
   };
-  const placed: [number, number, number][] = [];
-  for (let i = 0; placed.length < 120 && i < 6000; i++) {
-    const [x, z] = [(random() - 0.5) * 7600, (random() - 0.5) * 8000 - 200];
-    const path = Math.abs(x) < 500 && z > -1000;
-    const y = 900 + 1900 * random() ** 0.9;
-    if (path || placed.some(([a, b, c]) => Math.hypot(a - x, (b - y) * 0.7, c - z) < 380)) continue;
-    placed.push([x, y, z]);
+  const placed: (readonly [x: number, y: number, z: number, radius: number])[] = [];
+  for (let i = 0; placed.length < 74 && i < 8000; i++) {
+    const [x, z] = [(random() - 0.5) * 7600, (random() - 0.5) * 7600 - 700];
+    const radius = 70 + 110 * random() ** 1.6;
+    const y = 620 + 2150 * random() ** 0.8;
+    const path = Math.abs(x) < 620 && z > -2300;
+    if (path || placed.some(([a, b, c, r]) => Math.hypot(a - x, (b - y) * 0.8, c - z) < 2.2 * (radius + r))) continue;
+    placed.push([x, y, z, radius]);
   }
-  for (const [i, [x, y, z]] of placed.entries()) {
-    const n = i + 1;
-    put('bulb', `Bulb ${n}`, [warm, amber, white, warm][i % 4]!, (b) => sphere(b, [0, 0, 0], 34, 24), x, y, z);
-    put('shade', `Shade ${n}`, shade, (b) => sphere(b, [0, 0, 0], 92, 64), x, y, z);
+  for (const [i, [x, y, z, radius]] of placed.entries()) {
+    const [n, k] = [i + 1, radius / 100];
+    put('globe', `Globe ${n}`, opal[i % 3]!, (b) => sphere(b, [0, 0, 0], 100, 40), at(x, y, z), scaling(k));
     put(
       'socket',
       `Socket ${n}`,
@@ -59,17 +58,16 @@ export function createLamps(): Scene {
         lathe(
           b,
           [
-            [0, 62],
-            [24, 62, 3],
-            [24, 112, 6],
-            [8, 124, 2],
-            [0, 124],
+            [0, 94],
+            [30, 94, 3],
+            [30, 124, 8],
+            [9, 136, 2],
+            [0, 136],
           ],
           40,
         ),
-      x,
-      y,
-      z,
+      at(x, y, z),
+      scaling(k),
     );
     put(
       'cord',
@@ -79,29 +77,27 @@ export function createLamps(): Scene {
         lathe(
           b,
           [
-            [0, 122],
-            [4, 122],
-            [4, 3400],
+            [0, 0],
+            [3.5, 0],
+            [3.5, 3400],
             [0, 3400],
           ],
           8,
         ),
-      x,
-      y,
-      z,
+      at(x, y + 130 * k, z),
     );
   }
   // A bench at the end of the path, for scale.
-  stage.add('Bench', coated(plastic('walnut', [0.09, 0.04, 0.02], 0.4), 0.2), (b) => {
+  stage.add('Bench', coated(plastic('walnut', [0.2, 0.09, 0.04], 0.4), 0.2), (b) => {
     roundedBox(b, { at: [0, 2600, 420], size: [1700, 420, 60], corner: 30, edge: 14 });
     for (const x of [-700, 700]) roundedBox(b, { at: [x, 2600, 0], size: [60, 360, 425], corner: 16, edge: 8 });
   });
   stage.camera('Room', {
-    eye: [420, 1380, 4300],
-    target: [-60, 1330, 0],
-    focalLength: 30,
-    lensRadius: 3,
-    focus: [0, 1300, 800],
+    eye: [330, 1240, 4150],
+    target: [-40, 1240, 0],
+    focalLength: 32,
+    lensRadius: 5,
+    focus: [0, 1240, 400],
   });
   return stage.scene;
 }
