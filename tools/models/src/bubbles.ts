@@ -26,8 +26,8 @@ export function createBubbles(): Scene {
   }));
   // Bubbles that do not touch: tried in order of size.
   const placed: { x: number; y: number; z: number; r: number }[] = [{ x: -6, y: 98, z: 0, r: 62 }];
-  for (let i = 0; placed.length < 17 && i < 4000; i++) {
-    const r = 44 * (1 - i / 4600) ** 2.2 + 5;
+  for (let i = 0; placed.length < 13 && i < 4000; i++) {
+    const r = 52 * (1 - i / 4600) ** 2 + 7;
     const candidate = { x: (random() - 0.5) * 380, y: 30 + random() * 170, z: (random() - 0.65) * 220, r };
     if (placed.every((p) => Math.hypot(p.x - candidate.x, p.y - candidate.y, p.z - candidate.z) > p.r + r + 3))
       placed.push(candidate);
@@ -39,7 +39,7 @@ export function createBubbles(): Scene {
     if (mesh === undefined) mesh = stage.add(name, film, (b) => sphere(b, [0, 0, 0], 1, 160), at(x, y, z), scaling(r));
     else stage.place(name, film, mesh, at(x, y, z), scaling(r));
   }
-  stage.sweep(plastic('floor', [0.012, 0.013, 0.018], 0.22), {
+  stage.sweep(plastic('floor', [0.035, 0.045, 0.085], 0.3), {
     front: 900,
     back: 420,
     radius: 300,
