@@ -107,6 +107,7 @@ export default defineConfig({
     outline: [2, 3],
     nav: [
       { text: 'Start', link: '/guide/getting-started' },
+      { text: 'Gallery', link: '/gallery' },
       { text: 'Live', link: '/live' },
       { text: 'OpenPBR', link: '/openpbr/parameters', activeMatch: '^/openpbr/' },
       { text: 'Packages', link: '/packages/', activeMatch: '^/packages/' },
@@ -119,6 +120,7 @@ export default defineConfig({
         text: 'Start',
         items: [
           { text: 'Getting started', link: '/guide/getting-started' },
+          { text: 'Gallery', link: '/gallery' },
           { text: 'A live image', link: '/live' },
           { text: 'Playground', link: PLAYGROUND, target: '_self' },
           { text: 'Where it stands', link: '/guide/status' },

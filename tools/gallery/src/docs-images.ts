@@ -1,7 +1,8 @@
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { GalleryRecord } from './gallery';
-import type { GalleryImage } from './manifest';
+import { commandOf } from './command';
+import { GALLERY, LARGE_MODELS, type GalleryImage } from './manifest';
 
 /** Largest file of an image, bytes. */
 const MAX_BYTES = 150_000;
@@ -15,13 +16,12 @@ const MAX_BYTES = 150_000;
 export async function writeDocsImages(images: readonly GalleryImage[], folder: string): Promise<number> {
   const { default: sharp } = await import('sharp');
   const target = join('apps', 'docs', 'public', 'gallery');
-  const facts = join('apps', 'docs', 'gallery', 'gallery.json');
+  const facts = join('apps', 'docs', 'gallery.json');
   mkdirSync(target, { recursive: true });
-  mkdirSync(join('apps', 'docs', 'gallery'), { recursive: true });
   const known = new Map<string, GalleryRecord>();
-  for (const file of [facts, join(folder, 'gallery.json')])
-    if (existsSync(file))
-      for (const record of JSON.parse(readFileSync(file, 'utf8')) as GalleryRecord[]) known.set(record.id, record);
+  const remember = (records: readonly GalleryRecord[]) => records.forEach((record) => known.set(record.id, record));
+  if (existsSync(facts)) remember((JSON.parse(readFileSync(facts, 'utf8')) as { images: GalleryRecord[] }).images);
+  remember(JSON.parse(readFileSync(join(folder, 'gallery.json'), 'utf8')) as GalleryRecord[]);
   for (const { id } of images) {
     const source = join(folder, `${id}.png`);
     if (!existsSync(source)) {
@@ -37,7 +37,13 @@ export async function writeDocsImages(images: readonly GalleryImage[], folder: s
     writeFileSync(join(target, `${id}.webp`), bytes);
     process.stdout.write(`${id}.webp: quality ${quality}, ${Math.round(bytes.byteLength / 1000)} kB\n`);
   }
-  const records = images.flatMap(({ id }) => known.get(id) ?? []);
-  writeFileSync(facts, `${JSON.stringify(records, null, 2)}\n`);
+  // The page shows what there is of the manifest, in its order, with the commands and the texts of today.
+  const records = GALLERY.flatMap((image) => {
+    const record = known.get(image.id);
+    const { id, title, alt, model, variant } = image;
+    return record ? [{ ...record, id, title, alt, model, variant, command: commandOf(image) }] : [];
+  });
+  const models = [...new Set(records.map(({ model }) => model))].filter((model) => !LARGE_MODELS.includes(model));
+  writeFileSync(facts, `${JSON.stringify({ images: records, models }, null, 2)}\n`);
   return 0;
 }

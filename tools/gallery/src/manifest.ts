@@ -26,6 +26,9 @@ export const DEFAULTS = {
   denoise: 'balanced',
 } as const;
 
+/** Models of more than 3 MiB: the site does not carry them. */
+export const LARGE_MODELS: readonly string[] = ['amplifier', 'camera-lens', 'speedform', 'tea-set', 'watch', 'weave'];
+
 const GLASS = { 'max-depth': 24, samples: 512 } as const;
 const INSIDE = { samples: 384, 'max-volume-depth': 128 } as const;
 
@@ -74,7 +77,7 @@ export const GALLERY: readonly GalleryImage[] = [
     alt: 'A dark room with a polished floor in which globes of opal glass hang at many heights',
     model: 'lamps',
     camera: 'Room',
-    options: { samples: 768, 'max-depth': 10 },
+    options: { samples: 512, 'max-depth': 10, exposure: 0.5 },
   },
   {
     id: 'tumbler-whisky',
@@ -105,7 +108,7 @@ export const GALLERY: readonly GalleryImage[] = [
     alt: 'Three burning candles whose wax glows around the flames, in brass dishes',
     model: 'candles',
     camera: 'Front',
-    options: INSIDE,
+    options: { ...INSIDE, samples: 1024 },
   },
   {
     id: 'tea-set-celadon',

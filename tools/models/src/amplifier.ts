@@ -151,7 +151,7 @@ export function createAmplifier(): Scene {
     );
     add(
       `${name} glass`,
-      glass(`meter glass`, { ior: 1.5 }),
+      glass('meter glass', { extra: { geometry_thin_walled: true } }),
       (b) => roundedBox(b, { at: [0, 0, 4.2], size: [90, 56, 1.6], corner: 3, edge: 0.4 }),
       place,
     );
@@ -182,7 +182,7 @@ export function createAmplifier(): Scene {
   });
   stage.softbox({
     name: 'Window',
-    at: [-700, 620, 900],
+    at: [-1250, 700, 620],
     to: [0, 80, 160],
     width: 900,
     height: 620,
@@ -192,7 +192,7 @@ export function createAmplifier(): Scene {
   });
   stage.softbox({
     name: 'Front',
-    at: [500, 300, 1500],
+    at: [420, 1050, 1250],
     to: [0, 80, 160],
     width: 1100,
     height: 420,

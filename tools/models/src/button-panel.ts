@@ -102,7 +102,7 @@ export function createButtonPanel(): Scene {
   // Built with z up, as the front of the buttons; the panel then leans back.
   stage.add(
     'Panel',
-    metal('panel', [0.2, 0.205, 0.215], 0.4),
+    metal('panel', [0.3, 0.305, 0.315], 0.42),
     (b) => roundedBox(b, { at: [0, 0, -5], size: [176, 122, 5], corner: 9, edge: 1.2 }),
     lean,
     rotation('x', 90),
@@ -152,12 +152,21 @@ export function createButtonPanel(): Scene {
   stage.rest();
   stage.sweep(matte('backdrop', [0.13, 0.14, 0.155]), { front: 600, back: 320, radius: 240, height: 800, width: 1900 });
   stage.softbox({
+    name: 'Over',
+    at: [110, 460, 170],
+    to: [0, 40, 0],
+    width: 460,
+    height: 280,
+    radiance: 2.4,
+    gradient: 8,
+  });
+  stage.softbox({
     name: 'Key',
     at: [-240, 320, 60],
     to: [0, 40, 0],
     width: 260,
     height: 200,
-    radiance: 3.6,
+    radiance: 6,
     gradient: 8,
   });
   stage.softbox({

@@ -169,7 +169,7 @@ export function createCameraLens(): Scene {
     to: [0, 35, 0],
     width: 260,
     height: 260,
-    radiance: 5.5,
+    radiance: 8,
     gradient: 8,
   });
   stage.softbox({

@@ -22,7 +22,7 @@ export function createCandles(): Scene {
     roughness: 0.4,
   });
   const brass = metal('brass', BRASS, 0.22);
-  const flame = emitter('flame', 90, [1, 0.5, 0.14]);
+  const flame = emitter('flame', 70, [1, 0.5, 0.14]);
   for (const [i, [x, z, radius, height, material]] of (
     [
       [-46, -14, 23, 98, ivory],
@@ -138,7 +138,7 @@ export function createCandles(): Scene {
     to: [0, 60, 0],
     width: 240,
     height: 300,
-    radiance: 0.9,
+    radiance: 1.3,
     color: [0.45, 0.62, 1],
   });
   stage.softbox({
@@ -147,7 +147,7 @@ export function createCandles(): Scene {
     to: [0, 60, 0],
     width: 240,
     height: 240,
-    radiance: 0.35,
+    radiance: 0.6,
     color: [1, 0.8, 0.6],
   });
   stage.camera('Front', {

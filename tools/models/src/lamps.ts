@@ -3,26 +3,30 @@ import { lathe } from './shapes/lathe';
 import { panel, roundedBox } from './shapes/boxes';
 import { randomSequence } from './shapes/noise';
 import { sphere, surface } from './shapes/surface';
-import { BRASS, coated, emitter, matte, metal, plastic } from './stage/materials';
+import { BRASS, coated, matte, metal, plastic } from './stage/materials';
 import { at, Stage } from './stage/stage';
 import { rotation, scaling, type Matrix } from './stage/transform';
+
+/** Glass that glows all over and reflects the room a little. */
+const opal = (name: string, emission_color: readonly [number, number, number], emission_luminance: number) =>
+  plastic(name, [0.7, 0.66, 0.6], 0.12, { emission_color, emission_luminance });
 
 /** A dark room with a polished floor under hanging globes of opal glass. Millimetres; four metres high. */
 export function createLamps(): Scene {
   const stage = new Stage('Room of lamps');
   const random = randomSequence(23);
   const [W, D, H] = [9000, 9000, 3400];
-  const wall = plastic('wall', [0.1, 0.13, 0.19], 0.5);
-  const floor = coated(plastic('floor', [0.03, 0.026, 0.024], 0.3), 0.05);
+  const wall = plastic('wall', [0.2, 0.3, 0.42], 0.5);
+  const floor = coated(plastic('floor', [0.075, 0.06, 0.05], 0.3), 0.05);
   stage.add('Floor', floor, (b) => surface(b, (u, v) => [(u - 0.5) * W, (v - 0.5) * D, 0], { nu: 1, nv: 1 }));
-  stage.add('Ceiling', matte('ceiling', [0.05, 0.05, 0.055]), (b) => panel(b, W, D), at(0, H, 0), rotation('x', 180));
+  stage.add('Ceiling', matte('ceiling', [0.16, 0.17, 0.2]), (b) => panel(b, W, D), at(0, H, 0), rotation('x', 180));
   stage.add('Back wall', wall, (b) => panel(b, W, H), at(0, H / 2, -D / 2), rotation('x', 90));
   stage.add('Left wall', wall, (b) => panel(b, D, H), at(-W / 2, H / 2, 0), rotation('y', 90), rotation('x', 90));
   stage.add('Right wall', wall, (b) => panel(b, D, H), at(W / 2, H / 2, 0), rotation('y', -90), rotation('x', 90));
-  const opal = [
-    emitter('opal warm', 3.4, [1, 0.6, 0.27]),
-    emitter('opal amber', 2.8, [1, 0.44, 0.13]),
-    emitter('opal white', 3, [1, 0.78, 0.54]),
+  const globes = [
+    opal('opal warm', [1, 0.6, 0.27], 2.4),
+    opal('opal amber', [1, 0.44, 0.13], 2.1),
+    opal('opal white', [1, 0.78, 0.54], 2.2),
   ];
   const brass = metal('socket brass', BRASS, 0.25);
   const cord = matte('cord', [0.02, 0.02, 0.02]);
@@ -49,7 +53,7 @@ export function createLamps(): Scene {
   }
   for (const [i, [x, y, z, radius]] of placed.entries()) {
     const [n, k] = [i + 1, radius / 100];
-    put('globe', `Globe ${n}`, opal[i % 3]!, (b) => sphere(b, [0, 0, 0], 100, 40), at(x, y, z), scaling(k));
+    put('globe', `Globe ${n}`, globes[i % 3]!, (b) => sphere(b, [0, 0, 0], 100, 40), at(x, y, z), scaling(k));
     put(
       'socket',
       `Socket ${n}`,

@@ -274,7 +274,7 @@ export function createWatch(): Scene {
   part('Date', dateWindow, (b) =>
     roundedBox(b, { at: [9.2, 0, -2.75], size: [2.2, 1.8, 0.12], corner: 0.2, edge: 0.04 }),
   );
-  part('Crystal', glass('crystal', { ior: 1.5 }), (b) =>
+  part('Crystal', glass('crystal', { extra: { geometry_thin_walled: true } }), (b) =>
     lathe(
       b,
       [
@@ -335,7 +335,7 @@ export function createWatch(): Scene {
   });
   stage.camera('Front', {
     direction: [0.12, 0.34, 1],
-    margin: 0.1,
+    margin: 0.06,
     focalLength: 95,
     lensRadius: 1.1,
     focus: [0, 40, 20],

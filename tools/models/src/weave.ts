@@ -65,7 +65,7 @@ export function createWeave(): Scene {
     radiance: 1.6,
     color: [0.8, 0.9, 1],
   });
-  stage.camera('Near', { eye: [26, 62, 96], target: [-2, 0, 2], focalLength: 90, lensRadius: 2.2, focus: [0, 2, 6] });
+  stage.camera('Near', { eye: [22, 66, 92], target: [2, 0, 4], focalLength: 96, lensRadius: 2.2, focus: [0, 2, 6] });
   return stage.scene;
 }
 
@@ -133,9 +133,9 @@ export function createMail(): Scene {
     name: 'Window',
     at: [-190, 190, -60],
     to: [0, 20, 0],
-    width: 160,
-    height: 160,
-    radiance: 7,
+    width: 260,
+    height: 200,
+    radiance: 6,
     gradient: 8,
   });
   stage.softbox({
@@ -147,7 +147,23 @@ export function createMail(): Scene {
     radiance: 6,
     color: [1, 0.9, 0.75],
   });
-  stage.softbox({ name: 'Behind', at: [0, 130, -240], to: [0, 20, 0], width: 240, height: 60, radiance: 5 });
+  stage.softbox({
+    name: 'Over',
+    at: [40, 300, 120],
+    to: [0, 20, 0],
+    width: 360,
+    height: 240,
+    radiance: 2.2,
+    gradient: 8,
+  });
+  stage.softbox({
+    name: 'Behind',
+    at: [0, 130, -240],
+    to: [0, 20, 0],
+    width: 240,
+    height: 60,
+    radiance: 5,
+  });
   stage.camera('Near', {
     eye: [-20, 120, 200],
     target: [0, 20, 4],

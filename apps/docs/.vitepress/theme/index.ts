@@ -2,6 +2,7 @@ import type { Theme } from 'vitepress';
 import DefaultTheme from 'vitepress/theme-without-fonts';
 import FigureGrid from './FigureGrid.vue';
 import FigureTable from './FigureTable.vue';
+import GalleryGrid from './GalleryGrid.vue';
 import LiveBall from './LiveBall.vue';
 import LiveHierarchy from './LiveHierarchy.vue';
 import LiveParameters from './LiveParameters.vue';
@@ -22,6 +23,7 @@ export default {
     };
     app.component('FigureGrid', FigureGrid);
     app.component('FigureTable', FigureTable);
+    app.component('GalleryGrid', GalleryGrid);
     app.component('LiveBall', LiveBall);
     app.component('LiveHierarchy', LiveHierarchy);
     app.component('LiveParameters', LiveParameters);
