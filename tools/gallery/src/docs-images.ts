@@ -1,6 +1,6 @@
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import type { GalleryRecord } from './gallery';
+import type { GalleryRecord } from './record';
 import { commandOf } from './command';
 import { GALLERY, LARGE_MODELS, type GalleryImage } from './manifest';
 

@@ -7,6 +7,7 @@ import { sceneToGlb } from '@glanz/models/gltf';
 import type { PerspectiveCamera, Scene } from '@glanz/scene';
 import { cameraFile, cameraJson, commandOf } from './command';
 import { DEFAULTS, GALLERY, SIZE, type GalleryImage } from './manifest';
+import type { GalleryRecord } from './record';
 
 const HELP = `npm run gallery -- [--only ID,ID] [--scale F] [--samples N] [--denoise NAME] [--out FOLDER]
 
@@ -20,19 +21,6 @@ Renders the images of the gallery with glanz render and writes them, with the mo
   --models        Writes the models and their cameras, and renders nothing.
   --docs          Writes the images of FOLDER as WebP into the documentation, with their facts.
 `;
-
-/** What is known of an image after it has been rendered. */
-export interface GalleryRecord {
-  readonly id: string;
-  readonly command: string;
-  readonly width: number;
-  readonly height: number;
-  readonly samples: number;
-  readonly triangles: number;
-  /** From the start of the preparation to the end of the denoising, seconds. */
-  readonly seconds: number;
-  readonly gpu: string;
-}
 
 /** Thrown for arguments that make no sense. */
 class UsageError extends Error {}

@@ -243,7 +243,7 @@ export function createWatch(): Scene {
     number,
     number,
   ];
-  part('Hands', marker, (b) => {
+  part('Hour and minute', marker, (b) => {
     bar(b, hour, -2.6, 8.8, 1.5, -1.9, 0.42, 0.75);
     bar(b, minute, -2.9, 13.2, 1.25, -1.35, 0.38, 0.55);
     lathe(
