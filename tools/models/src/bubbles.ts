@@ -39,7 +39,7 @@ export function createBubbles(): Scene {
     if (mesh === undefined) mesh = stage.add(name, film, (b) => sphere(b, [0, 0, 0], 1, 160), at(x, y, z), scaling(r));
     else stage.place(name, film, mesh, at(x, y, z), scaling(r));
   }
-  stage.sweep(plastic('floor', [0.035, 0.045, 0.085], 0.3), {
+  stage.sweep(plastic('floor', [0.01, 0.012, 0.02], 0.3), {
     front: 900,
     back: 420,
     radius: 300,
@@ -52,7 +52,7 @@ export function createBubbles(): Scene {
     to: [0, 100, 0],
     width: 260,
     height: 420,
-    radiance: 5.5,
+    radiance: 14,
     gradient: 8,
   });
   stage.softbox({
@@ -61,7 +61,7 @@ export function createBubbles(): Scene {
     to: [0, 100, 0],
     width: 130,
     height: 420,
-    radiance: 5,
+    radiance: 13,
     gradient: 6,
     color: [0.8, 0.9, 1],
   });
@@ -71,7 +71,7 @@ export function createBubbles(): Scene {
     to: [0, 100, 0],
     width: 520,
     height: 200,
-    radiance: 4,
+    radiance: 10,
     gradient: 6,
   });
   stage.softbox({
@@ -80,7 +80,7 @@ export function createBubbles(): Scene {
     to: [0, 150, 0],
     width: 500,
     height: 24,
-    radiance: 3,
+    radiance: 7,
     color: [1, 0.6, 0.8],
   });
   stage.camera('Front', {
