@@ -37,6 +37,7 @@ declare const data: Readonly<Record<string, Results>>;
 export { data };
 
 const FILES = [
+  'paper-cpu',
   'paper-gpu',
   'rays',
   'rays-many',
