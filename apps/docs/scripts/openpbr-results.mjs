@@ -95,6 +95,8 @@ title: OpenPBR, measured
 
 # OpenPBR, measured
 
+<ResultPlot of="openpbr" />
+
 What the tests of [\`@glanz/openpbr\`](/packages/openpbr) find; how much was tried is said with each. The functions measured are those [on the CPU](/api/openpbr/cpu), in double precision; other tests hold the shaders to them within 10⁻⁴.
 
 ## White furnace

@@ -3,6 +3,7 @@ import DefaultTheme from 'vitepress/theme-without-fonts';
 import FigureGrid from './FigureGrid.vue';
 import FigureTable from './FigureTable.vue';
 import GalleryGrid from './GalleryGrid.vue';
+import ResultPlot from './ResultPlot.vue';
 import LiveBall from './LiveBall.vue';
 import LiveHierarchy from './LiveHierarchy.vue';
 import LiveParameters from './LiveParameters.vue';
@@ -24,6 +25,7 @@ export default {
     app.component('FigureGrid', FigureGrid);
     app.component('FigureTable', FigureTable);
     app.component('GalleryGrid', GalleryGrid);
+    app.component('ResultPlot', ResultPlot);
     app.component('LiveBall', LiveBall);
     app.component('LiveHierarchy', LiveHierarchy);
     app.component('LiveParameters', LiveParameters);

@@ -230,6 +230,8 @@ export function bvhMarkdown(
   const shown = paper?.figures?.filter(({ mean }) => mean !== undefined) ?? [];
   return `# Hierarchies
 
+<ResultPlot of="bvh" />
+
 How long [@glanz/bvh](../packages/bvh) builds, beside [three-mesh-bvh](https://github.com/gkjohnson/three-mesh-bvh) on the same meshes in the same process, in turns, one thread, after a first round that does not count. Median (least – largest) of ${runs} builds; ratios are of the least times. SAH has leaves of 4 triangles as ours have; one evaluator gives the surface area cost of all trees (1 a node, 1 a triangle).
 
 ${beside(rows)}

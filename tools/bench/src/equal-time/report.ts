@@ -214,7 +214,10 @@ const PAGE_HEAD = `# Error at equal time
 
 How wrong is an image after a second? Glanz beside [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the path tracer for three.js: its WebGPU wavefront tracer, on three r185. Both get the same .glb file, camera, size, depth and environment, each in a process of its own, one after another on one GPU, with warm pipelines.
 
-- **References.** Small scenes of a reference set whose images were made by another renderer, with their standard errors; images are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
+`;
+
+/** What the plots show; after them, so that the answer comes first. */
+const PAGE_NOTES = `- **References.** Small scenes of a reference set whose images were made by another renderer, with their standard errors; images are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
 - **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences in what a material means do not count.
 - **FLIP.** What an eye notices when it flips between image and reference, after Andersson et al. 2020, on tone-mapped images.
 - **GPU time.** By timestamps around every submission; the clock's own cost is subtracted, in favour of who submits often. The peer is measured in its best batching, all pixels' paths in flight, and without its preview.
@@ -245,7 +248,7 @@ export function writePages(report: EqualTimeReport, folder: string): string[] {
   );
   draw('equal-time-flip.svg', 'FLIP', 'mean FLIP', ofReferences('FLIP'));
   files.push(
-    ['equal-time.md', `${PAGE_HEAD}${images.join('\n')}\n${equalTimeMarkdown(report)}${PAGE_FOOT}`],
+    ['equal-time.md', `${PAGE_HEAD}${images.join('\n')}\n${PAGE_NOTES}${equalTimeMarkdown(report)}${PAGE_FOOT}`],
     ['equal-time.json', `${JSON.stringify(report, null, 1)}\n`],
   );
   for (const [name, contents] of files) writeFileSync(join(folder, name), contents);

@@ -136,6 +136,8 @@ export function loadingMarkdown({ machine, details }: LoadingReport): string {
   return [
     '# Loading',
     '',
+    '<ResultPlot of="loading" />',
+    '',
     `How long does it take from a glTF file to a scene that can be rendered? Glanz beside three.js ${three}: \`GLTFLoader\` with its \`DRACOLoader\` and \`MeshoptDecoder\`. Five models: large images (DamagedHelmet), Draco (chess-board), meshopt (pirate, bunny), many parts with images (lamborghini).`,
     '',
     '**What is compared.** Both loaders end with every image decoded and every vertex unpacked, neither has put anything on a graphics card. In a browser both leave decoded images as `ImageBitmap`s, so no pixel passes through JavaScript. What differs:',

@@ -1,0 +1,202 @@
+// The plot that each page of results begins with: what the benchmarks' files in this folder say, as bars.
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { defineLoader } from 'vitepress';
+
+/** One bar. */
+interface Bar {
+  readonly label: string;
+  readonly value: number;
+  /** The value with its unit. */
+  readonly text: string;
+  readonly kind: 'ours' | 'other' | 'limit';
+}
+
+/** Bars that are compared with each other, on a scale of their own. */
+interface Group {
+  readonly label: string;
+  readonly bars: readonly Bar[];
+}
+
+/** A plot: the question that it answers. */
+interface Plot {
+  readonly question: string;
+  readonly better: 'lower' | 'higher';
+  readonly groups: readonly Group[];
+}
+
+declare const data: Readonly<Record<string, Plot>>;
+export { data };
+
+interface Figure {
+  readonly name: string;
+  readonly min?: number;
+  readonly median?: number;
+  readonly mean?: number;
+  readonly target?: { readonly value: number };
+}
+
+const read = (name: string): unknown =>
+  JSON.parse(readFileSync(fileURLToPath(new URL(`./${name}.json`, import.meta.url)), 'utf8'));
+
+/** The figures of a benchmark by name. */
+function figuresOf(name: string) {
+  const all = (read(name) as { figures: readonly Figure[] }).figures;
+  const figure = (wanted: string): Figure => {
+    const found = all.find((one) => one.name === wanted);
+    if (!found) throw new Error(`${name}.json has no figure "${wanted}"`);
+    return found;
+  };
+  return { all, figure, value: (wanted: string) => (figure(wanted).mean ?? figure(wanted).median)! };
+}
+
+const rounded = (value: number) => Number(value.toPrecision(3)).toString();
+const bar = (label: string, value: number, unit: string, kind: Bar['kind']): Bar => ({
+  label,
+  value,
+  text: `${rounded(value)}${unit === '' ? '' : ` ${unit}`}`,
+  kind,
+});
+
+function speed(): Plot {
+  const { figure, value } = figuresOf('paper-gpu');
+  return {
+    question: 'How long does a sample of the push-button take, 512 × 512 pixels, on an H200?',
+    better: 'lower',
+    groups: ['low', 'medium', 'high'].map((level) => {
+      const time = `${level}: GPU time per sample`;
+      return {
+        label: `${value(`${level}: triangles`).toLocaleString('en')} triangles`,
+        bars: [
+          bar('Glanz', value(time), 'ms', 'ours'),
+          // The target is a quarter of what strahl took on the same GPU.
+          bar('strahl', 4 * figure(time).target!.value, 'ms', 'other'),
+        ],
+      };
+    }),
+  };
+}
+
+function hierarchies(): Plot {
+  const { value } = figuresOf('bvh');
+  return {
+    question: 'How long does it take to build the hierarchy of a mesh on one thread?',
+    better: 'lower',
+    groups: ['push-button 107k', 'push-button 1.07M', 'noisy sphere 1.07M'].map((mesh) => ({
+      label: mesh,
+      bars: [
+        bar('balanced', value(`${mesh}: balanced`), 'ms', 'ours'),
+        bar('fast', value(`${mesh}: fast`), 'ms', 'ours'),
+        bar('three-mesh-bvh CENTER', value(`${mesh}: three-mesh-bvh CENTER`), 'ms', 'other'),
+        bar('three-mesh-bvh SAH', value(`${mesh}: three-mesh-bvh SAH`), 'ms', 'other'),
+      ],
+    })),
+  };
+}
+
+function loading(): Plot {
+  const { details } = read('loading') as {
+    details: {
+      rows: readonly {
+        model: string;
+        place: string;
+        times: Readonly<Record<'glanz' | 'worker' | 'three', { median: number }>>;
+      }[];
+    };
+  };
+  return {
+    question: 'How long does it take from a file to a scene, in Chromium?',
+    better: 'lower',
+    groups: details.rows
+      .filter(({ place }) => place === 'address')
+      .map(({ model, times }) => ({
+        label: model,
+        bars: [
+          bar('loadGltf', times.glanz.median, 'ms', 'ours'),
+          bar('GltfWorker', times.worker.median, 'ms', 'ours'),
+          bar('three.js', times.three.median, 'ms', 'other'),
+        ],
+      })),
+  };
+}
+
+function furnace(): Plot {
+  const { all, figure } = figuresOf('furnace');
+  const whole = all.filter(({ name }) => name.endsWith(': light returned'));
+  const worst = (kind: string) =>
+    100 * Math.max(...whole.filter(({ name }) => name.startsWith(kind)).map(({ mean }) => Math.abs(1 - mean!)));
+  const limit = 100 * figure('largest distance from 1').target!.value;
+  return {
+    question: 'How much light do white spheres in white light lose, over all roughnesses?',
+    better: 'lower',
+    groups: [
+      {
+        label: 'largest error of the renderer, by material',
+        bars: [
+          ...['diffuse', 'metal', 'dielectric'].map((kind) => bar(kind, worst(kind), '%', 'ours')),
+          bar('limit', limit, '%', 'limit'),
+        ],
+      },
+    ],
+  };
+}
+
+function materials(): Plot {
+  const { furnace: rows } = read('openpbr') as { furnace: Readonly<Record<string, { min: number; max: number }>> };
+  const error = (name: string) => 100 * Math.max(Math.abs(1 - rows[name]!.min), Math.abs(rows[name]!.max - 1));
+  // Measured with its own code, as the table below has them.
+  const others: readonly (readonly [string, number])[] = [
+    ['metal', 3.5],
+    ['glass', 1.6],
+    ['fuzz over diffuse', 3.2],
+    ['stretched metal, anisotropy 0.9', 23],
+  ];
+  return {
+    question: 'How far from 1 is what a white surface gives back in white light, at worst?',
+    better: 'lower',
+    groups: others.map(([name, other]) => ({
+      label: name,
+      bars: [bar('@glanz/openpbr', error(name), '%', 'ours'), bar('three-gpu-pathtracer 0.0.26', other, '%', 'other')],
+    })),
+  };
+}
+
+function reliability(): Plot {
+  const count = (subject: string) => {
+    const survived = figuresOf(`faults-${subject}`).all.filter(({ name }) => name.endsWith(': survived'));
+    return {
+      survived: survived.reduce((sum, { median }) => sum + median!, 0),
+      tried: survived.reduce((sum, { target }) => sum + target!.value, 0),
+    };
+  };
+  return {
+    question: 'Of all injected faults, how many are survived?',
+    better: 'higher',
+    groups: [
+      ['tracer', 'the tracer, in Node'],
+      ['viewer', 'the viewer, in Chromium'],
+      ['cli', 'the command line'],
+    ].map(([subject, label]) => {
+      const { survived, tried } = count(subject!);
+      return {
+        label: label!,
+        bars: [
+          { label: 'survived', value: survived, text: survived.toLocaleString('en'), kind: 'ours' as const },
+          { label: 'tried', value: tried, text: tried.toLocaleString('en'), kind: 'limit' as const },
+        ],
+      };
+    }),
+  };
+}
+
+export default defineLoader({
+  watch: ['./*.json'],
+  load: (): Readonly<Record<string, Plot>> => ({
+    speed: speed(),
+    bvh: hierarchies(),
+    loading: loading(),
+    truth: furnace(),
+    openpbr: materials(),
+    reliability: reliability(),
+  }),
+});
