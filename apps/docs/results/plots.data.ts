@@ -42,12 +42,12 @@ const read = (name: string): unknown =>
 /** The figures of a benchmark by name. */
 function figuresOf(name: string) {
   const all = (read(name) as { figures: readonly Figure[] }).figures;
-  const figure = (wanted: string): Figure => {
-    const found = all.find((one) => one.name === wanted);
-    if (!found) throw new Error(`${name}.json has no figure "${wanted}"`);
+  const figure = (expected: string): Figure => {
+    const found = all.find((one) => one.name === expected);
+    if (!found) throw new Error(`${name}.json has no figure "${expected}"`);
     return found;
   };
-  return { all, figure, value: (wanted: string) => (figure(wanted).mean ?? figure(wanted).median)! };
+  return { all, figure, value: (expected: string) => (figure(expected).mean ?? figure(expected).median)! };
 }
 
 const rounded = (value: number) => Number(value.toPrecision(3)).toString();
