@@ -33,6 +33,10 @@ const BUDGETS = [
   { specifier: '@glanz/viewer', limit: 19 },
   { specifier: '@glanz/element', limit: 10 },
   { specifier: '@glanz/react', limit: 1.5 },
+  // The renderer is loaded when the first scene is prepared.
+  { specifier: '@glanz/three', limit: 16 },
+  { specifier: '@glanz/three/compat', limit: 22 },
+  { specifier: '@glanz/three/fiber', limit: 17 },
 ];
 
 /** Files that pages take as they are: kB, gzipped. */

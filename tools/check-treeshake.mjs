@@ -55,6 +55,18 @@ const SYMBOLS = [
     lacks: ['KHR_lights_punctual', 'KHR_materials_emissive_strength'],
   },
   {
+    from: '@glanz/three',
+    symbol: 'fromThree',
+    has: ['three/no-triangles'],
+    lacks: ['three/destroyed', 'createRenderPipeline'],
+  },
+  {
+    from: '@glanz/three/compat',
+    symbol: 'PhysicalCamera',
+    has: ['apertureBlades'],
+    lacks: ['three/destroyed', 'createComputePipeline', 'renderDelay'],
+  },
+  {
     from: '@glanz/renderer',
     symbol: 'requestDevice',
     has: ['renderer/no-adapter'],
@@ -87,14 +99,15 @@ export async function checkTreeShaking() {
         );
         // Without believing sideEffects, what other people's dependencies leave is theirs; ours must be gone.
         const { inputs, text } = await bundle(consumer, `import '${specifier}';`, {
-          external: PEERS,
+          external: [...PEERS, 'gl-matrix/*'],
           keepEffects: true,
         });
         const ours = Object.entries(inputs).filter(([file, bytes]) => bytes > 0 && file.includes('@glanz/'));
-        // Imports of the library that a package binds to stay, and do nothing of ours.
+        // Imports of libraries stay, and do nothing of ours.
         const bare =
           text
-            .replace(/import\s*\{[^}]*\}\s*from\s*"(react|three)";?/g, '')
+            .replace(/import\s*\{[^}]*\}\s*from\s*"(react|three|@react-three\/fiber|gl-matrix\/[^"]*)";?/g, '')
+            .replace(/import\s*"gl-matrix\/[^"]*";?/g, '')
             .replace(/"use client";?/g, '')
             .trim() === '';
         verdicts.expect(

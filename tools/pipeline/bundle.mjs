@@ -83,5 +83,6 @@ export const PEERS = [
   'draco3dgltf',
   'ktx-parse',
   'react',
+  '@react-three/fiber',
   'three',
 ];

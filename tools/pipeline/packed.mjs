@@ -50,9 +50,10 @@ async function install() {
       mkdirSync(dirname(link), { recursive: true });
       symlinkSync(realpathSync(join(p.dir, 'node_modules', name)), link, 'junction');
     }
-    // A binding to a library is of no use without it, nor are its declarations without the library's.
+    // A binding to a library is of no use without it, nor are its declarations without the library's: those that the
+    // package cannot do without, and those that entries of it bind to.
     const needed = Object.keys(manifest.peerDependencies ?? {}).filter(
-      (name) => !manifest.peerDependenciesMeta?.[name]?.optional,
+      (name) => !manifest.peerDependenciesMeta?.[name]?.optional || p.manifest.glanz?.bindings?.includes(name),
     );
     for (const name of needed.flatMap((peer) => [peer, `@types/${peer}`])) {
       const link = join(to, 'node_modules', name);

@@ -136,6 +136,7 @@ export default defineConfig({
           { text: 'The element', link: '/guide/element' },
           { text: 'React', link: '/guide/react' },
           { text: 'three.js', link: '/guide/three' },
+          { text: 'Coming from three-gpu-pathtracer', link: '/guide/three-gpu-pathtracer' },
           { text: 'Beside other viewers', link: '/guide/viewers' },
           { text: 'Coming from model-viewer', link: '/guide/from-model-viewer' },
           { text: 'Coming from Cycles', link: '/guide/from-cycles' },

@@ -3,11 +3,17 @@ import { photograph, quads, servePage, watch, type Served } from '@glanz/browser
 import { expect, test, type Page } from '@playwright/test';
 import type { GlanzViewerElement } from '@glanz/element';
 import type { Viewer } from '@glanz/viewer';
+import type * as compatExample from '../examples/three-compat';
+import type * as liveExample from '../examples/three-live';
 import type * as threeExample from '../examples/three-scene';
 import type * as viewerExample from '../examples/viewer';
 
 interface TestWindow {
-  examples: typeof viewerExample & { three: typeof threeExample };
+  examples: typeof viewerExample & {
+    three: typeof threeExample;
+    live: typeof liveExample;
+    compat: typeof compatExample;
+  };
   putElement: () => GlanzViewerElement;
   viewer: Viewer;
 }
@@ -93,6 +99,29 @@ test('a scene of three.js', async ({ page }) => {
   const { cells, deviation } = await photograph(page.locator('canvas'));
   expect(deviation).toBeGreaterThan(15);
   expect(cells[4]![0]).toBeGreaterThan(1.3 * cells[4]![1]);
+});
+
+test("a live scene of three.js, and three-gpu-pathtracer's interface", async ({ page }) => {
+  await page.evaluate(async () => {
+    const canvases = ['live', 'compat'].map((id) => {
+      const canvas = Object.assign(document.createElement('canvas'), { id, width: 48, height: 32 });
+      document.body.append(canvas);
+      return canvas;
+    });
+    const control = new AbortController();
+    const { tracer } = await window.examples.live.follow(canvases[0]!, control.signal);
+    const pathTracer = window.examples.compat.start(canvases[1]!);
+    Object.assign(window, { tracer, pathTracer, control });
+  });
+  const samples = () =>
+    page.evaluate(() => {
+      const { tracer, pathTracer } = window as unknown as Record<string, { samples: number }>;
+      return Math.min(tracer!.samples, pathTracer!.samples);
+    });
+  await expect.poll(samples).toBeGreaterThan(1);
+  for (const id of ['live', 'compat'])
+    await expect.poll(async () => (await photograph(page.locator(`#${id}`))).deviation, id).toBeGreaterThan(10);
+  await page.evaluate(() => (window as unknown as { control: AbortController }).control.abort());
 });
 
 test('the element of the guide', async ({ page }) => {

@@ -1,4 +1,4 @@
-import type { Camera, Scene } from '@glanz/scene';
+import type { Camera, PerspectiveCamera, Scene } from '@glanz/scene';
 import { axisOf, positionOf } from './matrix';
 import type { Loose, ThreeCamera } from './types';
 
@@ -26,8 +26,14 @@ export function readCamera(camera: ThreeCamera, scene: Scene): Camera | undefine
       });
       return undefined;
     };
-    const aspect = usable('aspect'),
-      focus = usable('focus');
+    const aspect = usable('aspect');
+    const lens = lensOf(loose);
+    if (((loose['anamorphicRatio'] as number | undefined) ?? 1) !== 1)
+      scene.warnings.push({
+        code: 'three/camera',
+        message: `Camera "${name}" has an anamorphicRatio, which is not supported: its aperture is as wide as high.`,
+      });
+    const focus = lens.focus_distance === undefined ? usable('focus') : undefined;
     return {
       type: 'perspective',
       name,
@@ -35,6 +41,7 @@ export function readCamera(camera: ThreeCamera, scene: Scene): Camera | undefine
       yfov: 2 * Math.atan(half),
       ...(aspect === undefined ? {} : { aspect }),
       ...(focus === undefined ? {} : { focus_distance: focus }),
+      ...lens,
     };
   }
   if (loose['isOrthographicCamera'] === true) {
@@ -51,9 +58,31 @@ export function readCamera(camera: ThreeCamera, scene: Scene): Camera | undefine
         (transform[12 + k] as number) + dx * (transform[k] as number) + dy * (transform[4 + k] as number);
     return { type: 'orthographic', name, transform, xmag: (right - left) / 2 / zoom, ymag: (top - bottom) / 2 / zoom };
   }
+  if (loose['isEquirectCamera'] === true) return { type: 'panorama', name, transform };
   scene.warnings.push({
     code: 'three/camera',
     message: `Camera "${name}" of type ${String(loose['type'])} is not supported.`,
   });
   return undefined;
+}
+
+/**
+ * The lens of a `PhysicalCamera`, by its fields `fStop`, `focusDistance`, `apertureBlades` and `apertureRotation`; none of
+ * another camera. Its focal length is in millimetres of the film, and the scene's unit a metre.
+ */
+function lensOf(loose: Loose): Partial<PerspectiveCamera> {
+  const {
+    fStop,
+    focusDistance,
+    apertureBlades = 0,
+    apertureRotation = 0,
+  } = loose as Record<string, number | undefined>;
+  if (!(fStop !== undefined && fStop > 0) || !(focusDistance !== undefined && focusDistance > 0)) return {};
+  const focalLength = (loose as unknown as { getFocalLength(): number }).getFocalLength();
+  return {
+    lens_radius: (0.5e-3 * focalLength) / fStop,
+    lens_blades: apertureBlades,
+    lens_rotation: apertureRotation,
+    focus_distance: focusDistance,
+  };
 }

@@ -25,11 +25,20 @@ export async function readEnvironment(
     | undefined) ?? { x: 0, y: 0, z: 0 };
   const visible = background === environment && environment !== undefined && environment !== null;
   const image = environment ? await readImage(environment, scene, textures) : undefined;
+  const warn = (message: string) => {
+    const code = 'three/environment';
+    if (!scene.warnings.some((known) => known.message === `${message}.`))
+      scene.warnings.push({ code, message: `${message}.` });
+  };
   if (Math.abs(turn.x) + Math.abs(turn.z) > 1e-6)
-    scene.warnings.push({
-      code: 'three/environment',
-      message: 'The environment is rotated about another axis than +Y; only its rotation about +Y is supported.',
-    });
+    warn('The environment is rotated about another axis than +Y; only its rotation about +Y is supported');
+  const number = (name: string) => (loose[name] as number | undefined) ?? (name === 'backgroundBlurriness' ? 0 : 1);
+  const backgroundTurn = (loose['backgroundRotation'] as { readonly y: number } | undefined)?.y ?? 0;
+  if (
+    visible &&
+    (number('backgroundBlurriness') > 0 || number('backgroundIntensity') !== intensity || backgroundTurn !== turn.y)
+  )
+    warn('The background is shown as the environment is: its own blurriness, intensity and rotation are not supported');
   if (!image) return ambience.dark ? undefined : ambient(ambience, visible);
   if (!ambience.dark && intensity > 0) {
     for (let j = 0; j < image.height; j++) {

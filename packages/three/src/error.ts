@@ -1,4 +1,7 @@
 import { GlanzError } from '@glanz/scene';
 
-/** A THREE.Scene that cannot be converted. Codes: `three/not-three`, `three/no-triangles`, `three/image`. */
+/**
+ * A scene of three.js that cannot be converted or rendered. Codes: `three/not-three`, `three/no-triangles`,
+ * `three/camera`, `three/size`, `three/canvas`, `three/gpu`, `three/option`, `three/destroyed`.
+ */
 export class ThreeError extends GlanzError {}

@@ -1,5 +1,5 @@
-import type { Scene } from '@glanz/scene';
-import { positionOf } from './matrix';
+import type { Light, Scene } from '@glanz/scene';
+import { axisOf, positionOf } from './matrix';
 import type { Color, Loose, ThreeObject } from './types';
 
 type Rgb = [number, number, number];
@@ -27,14 +27,43 @@ export class Ambience {
   }
 }
 
-/** Adds a light of three to the scene. @returns Whether it was one. */
-export function readLight(object: ThreeObject, scene: Scene, ambience: Ambience): boolean {
+/** A light of three, and what it has become. */
+export interface LightLink {
+  readonly object: ThreeObject;
+  /** Index in `Scene.lights`. */
+  readonly index: number;
+}
+
+/**
+ * Adds a light of three to the scene.
+ *
+ * @returns Its place there; `undefined` if it has none: ambient light, what gives no light, and what is no light.
+ */
+export function readLight(object: ThreeObject, scene: Scene, ambience: Ambience): LightLink | undefined {
+  const light = lightOf(object, ambience, (message) =>
+    scene.warnings.push({
+      code: 'three/light',
+      message: `Light "${object.name || String((object as unknown as Loose)['type'])}": ${message}.`,
+    }),
+  );
+  return light && { object, index: scene.lights.push(light) - 1 };
+}
+
+/**
+ * What a light of three is now.
+ *
+ * @param ambience Gets ambient light.
+ * @param warn Is called with what is not supported.
+ */
+export function lightOf(
+  object: ThreeObject,
+  ambience: Ambience,
+  warn: (message: string) => void = () => undefined,
+): Light | undefined {
   const light = object as unknown as Loose & ThreeObject;
-  if (light['isLight'] !== true) return false;
+  if (light['isLight'] !== true) return undefined;
   const [color, intensity] = [light['color'] as Color, light['intensity'] as number];
   const name = object.name || (light['type'] as string);
-  const warn = (message: string) =>
-    void scene.warnings.push({ code: 'three/light', message: `Light "${name}": ${message}.` });
   const m = object.matrixWorld.elements;
   const rgb: Rgb = [color.r, color.g, color.b];
   const position = positionOf(m);
@@ -63,13 +92,15 @@ export function readLight(object: ThreeObject, scene: Scene, ambience: Ambience)
   else if (light['isHemisphereLight'] === true)
     ambience.add(scaled(color, intensity), scaled(light['groundColor'] as Color, intensity));
   else if (light['isDirectionalLight'] === true)
-    scene.lights.push({ type: 'directional', name, color: rgb, intensity, direction: towards() });
+    return { type: 'directional', name, color: rgb, intensity, direction: towards() };
   else if (light['isSpotLight'] === true) {
     fading();
     if (light['map']) warn('its map is not supported');
+    if (light['iesMap']) warn('its iesMap is not supported: a scene of ours takes measured intensities');
+    if (Number(light['radius'] ?? 0) > 0) warn('its radius is not supported: it is a point');
     const outer = Math.min(Math.max(light['angle'] as number, 1e-3), Math.PI / 2);
     const inner = Math.min(outer * (1 - (light['penumbra'] as number)), outer * 0.999);
-    scene.lights.push({
+    return {
       type: 'spot',
       name,
       color: rgb,
@@ -78,47 +109,20 @@ export function readLight(object: ThreeObject, scene: Scene, ambience: Ambience)
       direction: towards(),
       inner_cone_angle: Math.max(0, inner),
       outer_cone_angle: outer,
-    });
-  } else if (light['isRectAreaLight'] === true)
-    addRectangle(scene, name, object, scaled(color, intensity), light['width'] as number, light['height'] as number);
-  else if (light['isPointLight'] === true) {
+    };
+  } else if (light['isRectAreaLight'] === true) {
+    // three's rectangles emit along their −Z, and have no scale.
+    const [x, z] = [axisOf(m, 0), axisOf(m, 2)];
+    const [width, height] = [light['width'] as number, light['height'] as number];
+    if (!(width > 0 && height > 0)) return undefined;
+    const area = { name, color: rgb, intensity, position, direction: z.map((value) => -value) as Rgb };
+    if (light['isCircular'] !== true) return { type: 'rectangle', ...area, tangent: x, width, height };
+    if (Math.abs(width - height) > 1e-6 * width)
+      warn(`its ellipse of ${width} × ${height} is not supported: it is a disk of the same area`);
+    return { type: 'disk', ...area, radius: Math.sqrt(width * height) / 2 };
+  } else if (light['isPointLight'] === true) {
     fading();
-    scene.lights.push({ type: 'point', name, color: rgb, intensity, position });
+    return { type: 'point', name, color: rgb, intensity, position };
   } else warn(`${light['type'] as string} is not supported`);
-  return true;
-}
-
-/** A rectangle that shines along its −Z from one side: geometry, as all light with size is. */
-function addRectangle(
-  scene: Scene,
-  name: string,
-  { matrixWorld }: ThreeObject,
-  radiance: Rgb,
-  width: number,
-  height: number,
-): void {
-  const strength = Math.max(...radiance);
-  if (!(strength > 0)) return;
-  const [w, h] = [width / 2, height / 2];
-  // Counter-clockwise as seen from −Z.
-  scene.meshes.push({
-    name,
-    positions: Float32Array.of(-w, -h, 0, w, -h, 0, w, h, 0, -w, h, 0),
-    indices: Uint32Array.of(0, 2, 1, 0, 3, 2),
-  });
-  scene.materials.push({
-    name,
-    parameters: {
-      base_weight: 0,
-      specular_weight: 0,
-      emission_luminance: strength,
-      emission_color: radiance.map((value) => value / strength) as Rgb,
-    },
-  });
-  scene.instances.push({
-    name,
-    mesh: scene.meshes.length - 1,
-    material: scene.materials.length - 1,
-    transform: Float64Array.from(matrixWorld.elements),
-  });
+  return undefined;
 }

@@ -32,17 +32,37 @@ export function flipsOf(material: ThreeMaterial): boolean {
 const isTexture = (value: unknown): value is ThreeTexture =>
   typeof value === 'object' && value !== null && (value as { isTexture?: unknown }).isTexture === true;
 
+/** A material of three as meshes of one kind show it, and its place in the scene. */
+export interface MaterialEntry {
+  readonly material: ThreeMaterial;
+  readonly flipped: boolean;
+  readonly hasTangents: boolean;
+  readonly tint: Color | undefined;
+  /** Index in `Scene.materials`. */
+  readonly index: number;
+}
+
 /**
  * Converts materials: their factors in the shape of glTF's, whose mapping to OpenPBR then serves.
  */
 export class Materials {
   readonly #scene: Scene;
   readonly #textures: Textures;
-  readonly #made = new Map<string, Promise<number>>();
+  readonly #made = new Map<string, { readonly entry: MaterialEntry; readonly ready: Promise<number> }>();
 
   constructor(scene: Scene, textures: Textures) {
     this.#scene = scene;
     this.#textures = textures;
+  }
+
+  /** All that have been converted. */
+  get entries(): readonly MaterialEntry[] {
+    return [...this.#made.values()].map(({ entry }) => entry);
+  }
+
+  /** The place of a material that was converted before; `undefined` of another one. */
+  find(material: ThreeMaterial, flipped: boolean, hasTangents: boolean, tint?: Color): number | undefined {
+    return this.#made.get(keyOf(material, flipped, hasTangents, tint))?.entry.index;
   }
 
   /**
@@ -51,18 +71,25 @@ export class Materials {
    * @param tint Multiplies its colour, as instances' colours do.
    */
   get(material: ThreeMaterial, flipped: boolean, hasTangents: boolean, tint?: Color): Promise<number> {
-    const key = [material.uuid, flipped, hasTangents, tint ? [tint.r, tint.g, tint.b] : ''].join(' ');
+    const key = keyOf(material, flipped, hasTangents, tint);
     let made = this.#made.get(key);
     if (!made) {
       // Its place is taken now, so that the order does not depend on images.
       const index = this.#scene.materials.push({ name: material.name || material.type, parameters: {} }) - 1;
-      made = this.#convert(material, flipped, hasTangents, tint).then((converted) => {
+      const entry = { material, flipped, hasTangents, tint, index };
+      const ready = this.convert(entry).then((converted) => {
         this.#scene.materials[index] = converted;
         return index;
       });
+      made = { entry, ready };
       this.#made.set(key, made);
     }
-    return made;
+    return made.ready;
+  }
+
+  /** What a material is now. */
+  convert({ material, flipped, hasTangents, tint }: MaterialEntry): Promise<Material> {
+    return this.#convert(material, flipped, hasTangents, tint);
   }
 
   async #convert(
@@ -72,12 +99,13 @@ export class Materials {
     tint: Color | undefined,
   ): Promise<Material> {
     const read = new Reader(material);
-    const warn = (message: string) =>
-      void this.#scene.warnings.push({
-        code: 'three/material',
-        message: `Material "${material.name || material.type}": ${message}.`,
-        path: material.uuid,
-      });
+    const { warnings } = this.#scene;
+    const warn = (what: string) => {
+      const message = `Material "${material.name || material.type}": ${what}.`;
+      // A material that is converted again warns of what is new.
+      if (!warnings.some((known) => known.path === material.uuid && known.message === message))
+        warnings.push({ code: 'three/material', message, path: material.uuid });
+    };
     const factors = factorsOf(read, tint, warn);
     const parameters: Record<string, unknown> = { ...fromGltf(factors) };
     const textures: NonNullable<Material['textures']> = {};
@@ -156,6 +184,9 @@ export class Materials {
     return this.#textures.add(convertImage(conversion.key, images, conversion, colorSpace), like, colorSpace);
   }
 }
+
+const keyOf = (material: ThreeMaterial, flipped: boolean, hasTangents: boolean, tint?: Color): string =>
+  [material.uuid, flipped, hasTangents, tint ? [tint.r, tint.g, tint.b] : ''].join(' ');
 
 /** Reads a material's properties, with defaults. */
 class Reader {

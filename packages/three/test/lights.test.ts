@@ -87,27 +87,33 @@ describe('lights', () => {
     }
   });
 
-  it('rectangles are geometry that shines to one side with the radiance of three', async () => {
+  it('rectangles emit along their -Z with the radiance of three, whatever their scale', async () => {
     const light = new THREE.RectAreaLight(new THREE.Color(1, 0.5, 0.5), 6, 2, 3);
-    light.position.set(0, 0, 4);
-    const scene = await lit(light);
-    const instance = scene.instances.at(-1)!;
-    const { positions, indices } = scene.meshes[instance.mesh]!;
-    expect(scene.materials[instance.material]!.parameters).toMatchObject({
-      emission_luminance: 6,
-      emission_color: [1, 0.5, 0.5],
-      base_weight: 0,
-      specular_weight: 0,
+    light.position.set(4, 0, 0);
+    light.lookAt(0, 0, 0);
+    light.scale.setScalar(5);
+    const { lights, warnings } = await lit(light);
+    expect(lights).toHaveLength(1);
+    expect(lights[0]).toMatchObject({
+      type: 'rectangle',
+      color: [1, 0.5, 0.5],
+      intensity: 6,
+      position: [4, 0, 0],
+      width: 2,
+      height: 3,
     });
-    const corner = (i: number) =>
-      new THREE.Vector3(positions[3 * indices[i]!], positions[3 * indices[i]! + 1], positions[3 * indices[i]! + 2]);
-    const area = (t: number) =>
-      corner(3 * t + 1)
-        .sub(corner(3 * t))
-        .cross(corner(3 * t + 2).sub(corner(3 * t)));
-    expect(area(0).length() / 2 + area(1).length() / 2).toBeCloseTo(6, 6);
-    // three's rectangles look along their −Z.
-    expect(area(0).normalize().toArray()).toEqual([0, 0, -1]);
+    const { direction, tangent } = lights[0] as { direction: readonly number[]; tangent: readonly number[] };
+    // Lights look at their target along -Z, unlike other objects: three turns them over.
+    [-1, 0, 0].forEach((value, k) => expect(direction[k]).toBeCloseTo(value, 10));
+    expect(Math.abs(tangent[2]!)).toBeCloseTo(1, 10);
+    expect(warnings).toEqual([]);
+  });
+
+  it('circular ones are disks of the same area', async () => {
+    const light = new THREE.RectAreaLight(0xffffff, 2, 3, 3);
+    Object.assign(light, { isCircular: true });
+    const { lights } = await lit(light);
+    expect(lights[0]).toMatchObject({ type: 'disk', intensity: 2, radius: 1.5 });
   });
 
   it('warns of what is not supported', async () => {

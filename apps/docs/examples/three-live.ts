@@ -1,0 +1,24 @@
+import { ThreePathTracer } from '@glanz/three';
+import { build } from './three-scene';
+
+// #region follow
+export async function follow(canvas: HTMLCanvasElement, signal: AbortSignal) {
+  const { scene, camera } = build();
+  const tracer = await ThreePathTracer.create(scene, camera, {
+    canvas,
+    toneMap: 'aces',
+    tracer: { maxDepth: 6 },
+    signal,
+  });
+  const frame = async () => {
+    if (signal.aborted) return tracer.destroy();
+    // What the application has moved or changed since the last frame.
+    await tracer.update();
+    await tracer.sample();
+    tracer.render();
+    requestAnimationFrame(() => void frame());
+  };
+  await frame();
+  return { tracer, scene, camera };
+}
+// #endregion follow

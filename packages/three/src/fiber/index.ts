@@ -1,0 +1,1 @@
+export { PathTracer, type PathTracerProps } from './path-tracer';
