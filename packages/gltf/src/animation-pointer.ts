@@ -28,7 +28,7 @@ export const pointerPath = (pointer: unknown): readonly string[] | undefined =>
 export function pointedValues(
   { pointers, samplers }: GltfAnimation,
   time: number,
-  accessors: Accessors,
+  accessors: Pick<Accessors, 'floats' | 'at'>,
 ): PointedValue[] {
   return (pointers ?? []).flatMap(({ sampler, path }) => {
     const { input, output, interpolation } = samplers[sampler] as (typeof samplers)[number];

@@ -83,7 +83,7 @@ export function valueAt(
 export function posesAt(
   { channels, samplers }: GltfAnimation,
   time: number,
-  accessors: Accessors,
+  accessors: Pick<Accessors, 'floats'>,
   warn: (sampler: number, what: string) => void,
 ): Map<number, NodePose> {
   const poses = new Map<number, NodePose>();
@@ -117,6 +117,15 @@ export function posesAt(
   }
   return poses;
 }
+
+/** Nodes whose morph weights some animation of a document changes. */
+export const morphingNodes = ({ animations = [] }: GltfJson): ReadonlySet<number> =>
+  new Set(
+    animations.flatMap(({ channels, pointers = [] }) => [
+      ...channels.filter(({ target }) => target.path === 'weights').map(({ target }) => target.node),
+      ...pointers.filter(({ path }) => path[0] === 'nodes' && path[2] === 'weights').map(({ path }) => Number(path[1])),
+    ]),
+  );
 
 /** Names of a document's animations, and their durations in seconds as the document declares them. */
 export function describeAnimations({

@@ -1,5 +1,6 @@
 import { createScene, type Scene, type SceneWarning } from '@glanz/scene';
-import { describeAnimations, posesAt, type NodePose } from './animation';
+import type { Accessors } from './accessors';
+import { describeAnimations, morphingNodes, posesAt, type NodePose } from './animation';
 import { pointedValues, withValues } from './animation-pointer';
 import { decodeImageInBrowser, browserReads } from './browser-images';
 import { isShallow, type Raw } from './json-value';
@@ -136,6 +137,7 @@ export async function buildScene(
   );
   environmentRead.catch(() => undefined);
   let fallback: number | undefined;
+  if (json.animations?.length) scene.animatedParts = [];
   readNodes({
     json,
     reader,
@@ -147,6 +149,7 @@ export async function buildScene(
           scene.warnings.push({ code: 'gltf/animation', message: `${source.name}: ${path} ${what}.`, path });
         })
       : new Map<number, NodePose>(),
+    morphing: morphingNodes(json),
     instances: new Budget(source.name, 'instances', options.limits),
     defaultMaterial: () => (fallback ??= addMaterial({ name: 'default' })),
     uvSetsOf: (material) => uvSets[material] as UvSets,
@@ -230,12 +233,12 @@ function animationOf(
 }
 
 /** The document with the values that KHR_animation_pointer animates, checked again. */
-function atMoment(
+export function atMoment(
   json: GltfJson,
   raw: Raw,
   animation: GltfAnimation | undefined,
   time: number,
-  { file, accessors }: PrimitiveReader,
+  { file, accessors }: { readonly file: string; readonly accessors: Pick<Accessors, 'floats' | 'at'> },
   warnings: SceneWarning[],
 ): GltfJson {
   if (!animation?.pointers?.length) return json;

@@ -1,18 +1,18 @@
-import type { Instance, Mesh, Scene } from '@glanz/scene';
+import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
 import { fromRotationTranslationScale, multiply } from 'gl-matrix/esm/mat4.js';
 import type { NodePose } from './animation';
-import { maximum, readPrimitive, withoutUnusedVertices } from './attributes';
+import { maximum, readPrimitive } from './attributes';
 import { readCamera } from './cameras';
+import { deformed, type Deformation } from './deform';
 import { GltfError } from './error';
-import type { GltfJson, GltfNode, GltfPrimitive } from './json';
+import type { GltfJson, GltfMesh, GltfNode, GltfPrimitive } from './json';
 import { readLight } from './lights';
 import type { Budget } from './limits';
 import type { UvSets } from './materials';
 import { identity, isFinite4x4, type Matrix } from './matrix';
-import { unitNormals } from './normals';
-import { isSkinnable, jointMatrices, morphed, skinned } from './pose';
+import { influencesOf, isSkinnable, jointMatrices } from './pose';
 import { openPrimitive, type PrimitiveData, type PrimitiveReader } from './primitive';
-import { tangentSet, withTangents } from './tangents';
+import { tangentSet } from './tangents';
 
 /** What {@link readNodes} needs. */
 export interface NodeContext {
@@ -27,11 +27,13 @@ export interface NodeContext {
   /** Index of the document's scene; undefined: all root nodes. */
   readonly shown: number | undefined;
   readonly poses: ReadonlyMap<number, NodePose>;
+  /** Nodes whose weights some animation changes, in this pose or another. */
+  readonly morphing: ReadonlySet<number>;
   readonly instances: Budget;
 }
 
 /** A node that is shown. */
-interface Placed {
+export interface Placed {
   readonly world: Matrix;
   readonly visible: boolean;
 }
@@ -48,7 +50,11 @@ function localMatrix(node: GltfNode, pose: NodePose | undefined): Matrix {
 }
 
 /** All nodes of a scene, parents before children, in the order of the document. */
-function placedNodes({ json, shown, poses }: NodeContext): Map<number, Placed> {
+export function placedNodes({
+  json,
+  shown,
+  poses,
+}: Pick<NodeContext, 'json' | 'shown' | 'poses'>): Map<number, Placed> {
   const nodes = json.nodes ?? [];
   let roots = shown === undefined ? undefined : (json.scenes?.[shown]?.nodes ?? []);
   if (!roots) {
@@ -115,6 +121,7 @@ export function readNodes(context: NodeContext): void {
         if (!visible) instance.visible = false;
         if (read.variants) instance.variants = read.variants;
         scene.instances.push(instance);
+        scene.animatedParts?.push([index, at]);
       }
     });
   }
@@ -182,15 +189,15 @@ class MeshReader {
     const material = primitive.material ?? defaultMaterial();
     if (!this.#variants.has(primitive)) this.#variants.set(primitive, variantsOf(primitive));
     const variants = this.#variants.get(primitive);
-    const own = poses.get(nodeIndex)?.weights ?? node.weights;
     // Weights of the mesh itself give all of its instances the same shape.
+    const own = poses.get(nodeIndex)?.weights ?? node.weights ?? this.#context.morphing.has(nodeIndex);
     const shared = (node.skin === undefined || !isSkinnable(primitive)) && !own;
     const key = shared ? this.#keyOf(primitive, material, mesh?.weights) : '';
     if (shared && this.#shared.has(key)) {
       const known = this.#shared.get(key);
       return known === undefined ? undefined : { mesh: known, material, variants };
     }
-    const weights = (own ?? mesh?.weights ?? []).map((w) => (Number.isFinite(w) ? w : 0));
+    const weights = weightsOf(node, mesh, poses.get(nodeIndex));
     const label =
       (mesh?.name || node.name || `mesh ${node.mesh}`) + ((mesh?.primitives.length ?? 1) > 1 ? ` ${at}` : '');
     const made = this.#make(node, primitive, label, `/meshes/${node.mesh}/primitives/${at}`, material, weights, [
@@ -256,7 +263,6 @@ class MeshReader {
     const opened = this.#opened.get(primitive) ?? openPrimitive(primitive, path, reader);
     // Keep only primitives that may be read again.
     if (node.skin !== undefined || weights.length > 0) this.#opened.set(primitive, opened);
-    const opaque = scene.materials[material]?.parameters.geometry_opacity === undefined;
     const uvSets = uvSetsOf(material);
     for (const other of materials) {
       if (`${uvSetsOf(other)}` !== `${uvSets}`)
@@ -266,25 +272,29 @@ class MeshReader {
           path,
         });
     }
-    let made = readPrimitive(opened, label, opaque, uvSets, path, scene.warnings);
-    if (!made) return undefined;
-    const blended = weights.some((w) => w !== 0);
-    if (blended) made = morphed(made, opened, weights);
-    const posed = node.skin !== undefined && isSkinnable(primitive);
-    if (posed) made = skinned(made, opened, this.#jointsOf(node.skin as number), scene.warnings);
-    // Blended normals are shorter than 1 and may cancel out.
-    if ((posed || blended) && made.normals)
-      unitNormals(made.normals, made.positions, made.indices, (message) =>
-        scene.warnings.push({ code: 'gltf/primitive', message: `${label}: ${message}`, path }),
-      );
-    made = withoutUnusedVertices(made);
-    const set = materials.map((index) => tangentSet(scene.materials[index])).find((uvSet) => uvSet !== undefined);
-    return set === undefined ? made : withTangents(made, set);
+    const base = readPrimitive(opened, label, isOpaque(scene.materials[material]), uvSets, path, scene.warnings);
+    if (!base) return undefined;
+    let skin: Deformation['skin'];
+    if (node.skin !== undefined && isSkinnable(primitive)) {
+      const matrices = this.#jointsOf(node.skin);
+      const vertices = base.positions.length / 3;
+      skin = { matrices, influences: influencesOf(label, opened, vertices, matrices.length, scene.warnings) };
+    }
+    const shown = materials.map((index) => scene.materials[index]);
+    return deformed(base, opened, { weights, skin }, shown, path, scene.warnings);
   }
 }
 
+/** Whether the alpha of vertex colours is without effect on a material. */
+export const isOpaque = (material: Material | undefined): boolean =>
+  material?.parameters.geometry_opacity === undefined;
+
+/** The weights of a node's morph targets: its own in this pose, or those of its mesh. */
+export const weightsOf = (node: GltfNode, mesh: GltfMesh | undefined, pose: NodePose | undefined): readonly number[] =>
+  (pose?.weights ?? node.weights ?? mesh?.weights ?? []).map((w) => (Number.isFinite(w) ? w : 0));
+
 /** The materials of KHR_materials_variants, by the indices of the variants. */
-function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | undefined {
+export function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | undefined {
   const mappings = extensions?.KHR_materials_variants?.mappings;
   if (!mappings) return undefined;
   return Object.fromEntries(
@@ -293,8 +303,8 @@ function variantsOf({ extensions }: GltfPrimitive): Record<number, number> | und
 }
 
 /** The transforms of a node's mesh: its own, or those of EXT_mesh_gpu_instancing. */
-function instancesOf(
-  { reader, scene, instances }: NodeContext,
+export function instancesOf(
+  { reader, scene, instances }: Pick<NodeContext, 'reader' | 'scene' | 'instances'>,
   node: GltfNode,
   transform: Matrix,
   index: number,

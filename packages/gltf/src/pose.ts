@@ -74,7 +74,7 @@ export function jointMatrices(
 }
 
 /** Which joints move each vertex, and how much: four of each for every vertex. */
-interface Influences {
+export interface Influences {
   readonly joints: Float32Array;
   readonly weights: Float32Array;
 }
@@ -88,8 +88,11 @@ const SUM_TOLERANCE = 0.05;
 export const isSkinnable = ({ attributes }: { readonly attributes: object }): boolean =>
   'JOINTS_0' in attributes && 'WEIGHTS_0' in attributes;
 
-/** The sets of influences of a primitive. Warns of those that are ignored. */
-function influencesOf(
+/**
+ * The sets of influences of a primitive. Weights that are not finite or below 0, and joints that do not exist, have no
+ * effect, with a warning.
+ */
+export function influencesOf(
   name: string,
   primitive: PrimitiveData,
   vertices: number,
@@ -139,16 +142,11 @@ function influencesOf(
 
 /**
  * A mesh in the pose of its skeleton, in world space (glTF 2.0, section 3.7.3.3: the node's own transform is ignored).
- * Weights that are not finite or below 0, and joints that do not exist, are ignored, with a warning.
+ *
+ * @param sets Of {@link influencesOf}.
  */
-export function skinned(
-  mesh: Mesh,
-  primitive: PrimitiveData,
-  matrices: readonly (Matrix | undefined)[],
-  warnings: SceneWarning[],
-): Mesh {
+export function skinned(mesh: Mesh, sets: readonly Influences[], matrices: readonly (Matrix | undefined)[]): Mesh {
   const vertices = mesh.positions.length / 3;
-  const sets = influencesOf(mesh.name, primitive, vertices, matrices.length, warnings);
   const positions = new Float32Array(mesh.positions.length);
   const normals = mesh.normals && new Float32Array(mesh.normals.length);
   const tangents = mesh.tangents?.slice();

@@ -42,7 +42,10 @@ export interface Instance {
   variants?: Readonly<Record<number, number>>;
 }
 
-/** An animation of the file the scene came from. A scene holds one moment of it; load the file again for another. */
+/**
+ * An animation of the file the scene came from. A scene holds one moment of it; `openAnimations` of
+ * `@glanz/gltf/animation` gives others.
+ */
 export interface SceneAnimation {
   readonly name: string;
   /** Seconds. */
@@ -68,6 +71,11 @@ export interface Scene {
   variants?: string[];
   /** Animations that the loader can pose the scene by. */
   animations?: SceneAnimation[];
+  /**
+   * Of a scene with animations, for each of {@link instances} the node and the primitive of its mesh in the file: what
+   * `openAnimations` of `@glanz/gltf/animation` needs to pose it.
+   */
+  animatedParts?: (readonly [node: number, primitive: number])[];
   /** What the file says about itself (authors, generator, licence, XMP packets), passed through untouched. */
   metadata?: Readonly<Record<string, unknown>>;
   /** Faults that the loader worked around. */

@@ -1,0 +1,44 @@
+import type { Material, Mesh, SceneWarning } from '@glanz/scene';
+import { withoutUnusedVertices } from './attributes';
+import type { Matrix } from './matrix';
+import { unitNormals } from './normals';
+import { morphed, skinned, type Influences } from './pose';
+import type { PrimitiveData } from './primitive';
+import { tangentSet, withTangents } from './tangents';
+
+/** How a mesh is deformed. */
+export interface Deformation {
+  /** Of the morph targets; none: no weights. */
+  readonly weights: readonly number[];
+  /** Matrices of the joints and which vertices they move; undefined: no skin. */
+  readonly skin:
+    | { readonly matrices: readonly (Matrix | undefined)[]; readonly influences: readonly Influences[] }
+    | undefined;
+}
+
+/**
+ * A mesh as `readPrimitive` has read it, with its morph targets blended in and its skin applied, without the vertices
+ * that no triangle uses, and with the tangents that its materials need. The given mesh is not changed.
+ *
+ * @param materials Those that the mesh is shown with.
+ */
+export function deformed(
+  base: Mesh,
+  primitive: PrimitiveData,
+  { weights, skin }: Deformation,
+  materials: readonly (Material | undefined)[],
+  path: string,
+  warnings: SceneWarning[],
+): Mesh {
+  const blended = weights.some((weight) => weight !== 0);
+  let made = blended ? morphed(base, primitive, weights) : base;
+  if (skin) made = skinned(made, skin.influences, skin.matrices);
+  // Blended normals are shorter than 1 and may cancel out.
+  if ((skin || blended) && made.normals)
+    unitNormals(made.normals, made.positions, made.indices, (message) =>
+      warnings.push({ code: 'gltf/primitive', message: `${base.name}: ${message}`, path }),
+    );
+  made = withoutUnusedVertices(made);
+  const set = materials.map(tangentSet).find((uvSet) => uvSet !== undefined);
+  return set === undefined ? made : withTangents(made, set);
+}
