@@ -226,7 +226,7 @@ export class ScenePoser {
     };
     const meshes: { mesh: number; deformed: Mesh }[] = [];
     for (const part of this.#deforming) {
-      const node = json.nodes?.[part.node] as GltfNode;
+      const node = (json.nodes as readonly GltfNode[])[part.node] as GltfNode;
       const weights = weightsOf(node, json.meshes?.[node.mesh as number], poses.get(part.node));
       const matrices = node.skin !== undefined && isSkinnable(part.primitive) ? jointsOf(node.skin) : undefined;
       const numbers = [...weights, ...(matrices ?? []).flatMap((matrix) => matrix ?? [])];
@@ -296,7 +296,7 @@ export class ScenePoser {
     if (this.#lights.length === 0) return [];
     const now = createScene();
     for (const [index, { world, visible }] of placed) {
-      const { name = '', extensions } = json.nodes?.[index] as GltfNode;
+      const { name = '', extensions } = (json.nodes as readonly GltfNode[])[index] as GltfNode;
       const light = json.extensions?.KHR_lights_punctual?.lights[extensions?.KHR_lights_punctual?.light ?? -1];
       if (light && visible && isFinite4x4(world)) readLight(light, name, world, now);
     }

@@ -5,7 +5,7 @@ import { Connection } from './connection';
 import type { EngineHost, EngineSettings, TracerSpec, TracerCopy } from './engine-host';
 import { abortError, isAbort } from './aborts';
 import type { ViewerState } from './events';
-import { RememberingHierarchies } from './hierarchies';
+import { RememberingHierarchies, type RefitHierarchy } from './hierarchies';
 import { makeTracer } from './make-tracer';
 import { Preparation } from './preparation';
 import { RenderLoop, type Size } from './render-loop';
@@ -147,6 +147,11 @@ export class Engine {
     return this.#loop.edits.size;
   }
 
+  /** Sets what gives deformed meshes their hierarchies. */
+  refit(refit: RefitHierarchy | undefined): void {
+    this.#builder.refit = refit;
+  }
+
   /** Adds no samples while it is set, but for one after each change. */
   get paused(): boolean {
     return this.#loop.paused;
@@ -227,6 +232,11 @@ export class Engine {
       throw error;
     }
     this.#loop.redraw();
+  }
+
+  /** Has the loop look again at what is to be done. */
+  wake(): void {
+    this.#loop.stir();
   }
 
   /** Starts the present work again, with settings that have changed. */

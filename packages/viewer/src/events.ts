@@ -79,6 +79,14 @@ export interface ViewerEvents {
     readonly height: number;
     readonly denoised: boolean;
   };
+  /** An animation plays from now on, by its name. */
+  play: { readonly name: string };
+  /** The animation has been paused. */
+  pause: { readonly name: string };
+  /** The animation begins again; `count`: how often it has played. */
+  loop: { readonly name: string; readonly count: number };
+  /** The animation has played as often as it was asked to. */
+  finished: { readonly name: string };
   /** A click or tap without a drag, and what lies there. CSS pixels from the canvas's upper left corner. */
   pick: { readonly hit: PickResult | undefined; readonly x: number; readonly y: number };
 }

@@ -2,6 +2,7 @@ export { createViewer, Viewer } from './viewer';
 export type { PreviewMode } from './preview';
 export type { LoadOptions, PreviewOptions, ViewerOptions } from './options';
 export type { CameraChangeSource, LoadStage, ViewerEvents, ViewerState } from './events';
+export type { AnimationPlayer, PlayOptions } from './animation-player';
 export { Emitter, type ListenOptions } from './emitter';
 export type { BlobOptions } from './options';
 export type { ImageProgress } from './render-image';

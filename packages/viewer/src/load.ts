@@ -33,6 +33,8 @@ export interface LoadModelOptions {
 }
 
 const MODEL = /\.(glb|gltf|obj|stl)$/i;
+/** Models that are no glTF. */
+const OTHER = /\.(obj|stl)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 
 const isScene = (source: ModelSource): source is Scene =>
@@ -87,7 +89,7 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
   const { signal } = options;
   signal?.throwIfAborted();
   if (typeof source === 'string' || source instanceof URL) {
-    if (!/\.(obj|stl)$/i.test(pathOf(source))) return readGltf(source, options);
+    if (!OTHER.test(pathOf(source))) return readGltf(source, options);
     const base = addressOf(source, 'viewer/no-model');
     return readOther(
       decodeURIComponent(base.pathname.slice(base.pathname.lastIndexOf('/') + 1)),
@@ -112,7 +114,7 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
       `There is no .glb, .gltf, .obj or .stl among the files${names.length > 0 ? ` (${names.join(', ')}${files.size > 3 ? ', …' : ''})` : ''}.`,
     );
   }
-  if (!/\.(obj|stl)$/i.test(model)) return readGltf({ files, entry: model }, options);
+  if (!OTHER.test(model)) return readGltf({ files, entry: model }, options);
   const folder = model.slice(0, model.lastIndexOf('/') + 1);
   return readOther(
     model.slice(folder.length),
@@ -172,6 +174,18 @@ async function fetchBytes(url: URL, signal: AbortSignal | undefined): Promise<Ui
   }
 }
 
+/** What the loader of glTF takes of a source; `undefined` for scenes and other formats. */
+export function gltfSourceOf(source: ModelSource): GltfSource | undefined {
+  if (typeof source === 'string' || source instanceof URL) return OTHER.test(pathOf(source)) ? undefined : source;
+  if (!(source instanceof Blob || source instanceof Map || isFiles(source))) return undefined;
+  const files = filesOf(source);
+  const { model } = sortFiles(files);
+  return model === undefined || OTHER.test(model) ? undefined : { files, entry: model };
+}
+
+/** meshopt's decoder, which models may need. */
+export const meshoptDecoder = async (): Promise<unknown> => (await import('meshoptimizer/decoder')).MeshoptDecoder;
+
 type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; readonly entry: string };
 
 async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<Scene> {
@@ -193,8 +207,7 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
   }
   signal?.throwIfAborted();
   const { loadGltf } = await import('./gltf');
-  const meshopt = async () => (await import('meshoptimizer/decoder')).MeshoptDecoder;
-  return loadGltf(source, { ...common, compressedFormats, decoders: { meshopt, ...decoders } });
+  return loadGltf(source, { ...common, compressedFormats, decoders: { meshopt: meshoptDecoder, ...decoders } });
 }
 
 async function readOther(

@@ -1,9 +1,11 @@
 import type { PathTracer } from '@glanz/renderer';
+import type { AnimationPlayer } from './animation-player';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
 import { sceneOf } from './checks';
 import type { Emitter } from './emitter';
 import type { Engine, TracerSpec } from './engine';
-import { isAbort } from './aborts';
+import { abortError, isAbort, isLoss } from './aborts';
+import { ViewerError } from './errors';
 import type { LoadStage, ViewerEvents } from './events';
 import { fitCamera } from './fit-camera';
 import { LatestTask } from './latest-task';
@@ -38,6 +40,11 @@ export class ViewerModel {
   loaded: Scene | undefined;
   /** Name of the variant that is shown. */
   variant: string | undefined;
+  /** What {@link loaded} was loaded from. */
+  #source: ModelSource | undefined;
+  #opening: Promise<AnimationPlayer> | undefined;
+  /** Plays the animations of {@link loaded}, once that was asked for. */
+  player: AnimationPlayer | undefined;
 
   constructor(
     options: ViewerOptions,
@@ -101,9 +108,37 @@ export class ViewerModel {
     return this.#engine.edit(`material ${nameOrIndex}`, set, parameters);
   }
 
+  /** See `Viewer.animation`. */
+  animation(): Promise<AnimationPlayer> {
+    const opening = (this.#opening ??= this.#open());
+    // What has failed is tried again by the next call.
+    opening.catch(() => this.#opening === opening && (this.#opening = undefined));
+    return opening;
+  }
+
+  async #open(): Promise<AnimationPlayer> {
+    const scene = this.loaded;
+    if (!scene?.animations?.length) throw new ViewerError('viewer/animation', 'There is no model with animations.');
+    const engine = this.#engine;
+    const { openPlayer, refitting } = await import('./animation-player');
+    const player = await openPlayer({
+      source: this.#source as ModelSource,
+      scene,
+      decoders: this.#options.decoders,
+      edit: (change) => engine.edit('animation', change),
+      wake: () => engine.wake(),
+      emit: (type, detail) => this.#events.emit(type, detail),
+      failed: (error) => void (isAbort(error) || isLoss(error) || reportError(this.#events, error)),
+    });
+    if (scene !== this.loaded) throw abortError('another model was shown');
+    engine.refit(refitting());
+    return (this.player = player);
+  }
+
   /** Aborts a load. */
   destroy(): void {
     this.#loading.abort();
+    this.player?.destroy();
   }
 
   /** Reads a model and has the engine show it. */
@@ -140,6 +175,9 @@ export class ViewerModel {
       signal,
       onProgress,
       onTaken: () => {
+        this.player?.destroy();
+        this.player = this.#opening = undefined;
+        this.#source = source;
         this.loaded = scene;
         this.variant = variant;
         adopt();

@@ -2,6 +2,7 @@ import type { PathTracer, PickResult } from '@glanz/renderer';
 import type { Camera, Scene } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
 import { checkAlive, checkedMode, checkedOption, checkedSetting, checkSettings, sceneOf } from './checks';
+import type { AnimationPlayer } from './animation-player';
 import type { ControlOptions } from './controls';
 import { isAbort } from './aborts';
 import type { Denoising } from './denoise-session';
@@ -59,8 +60,11 @@ export class Viewer {
     const events = this.#events;
     const engine = (this.#engine = new Engine(canvas, engineSettings(options), previewOptions(options).budgetMs ?? 12, {
       ...engineReports(events),
-      step: (seconds) => this.#camera.step(seconds),
-      moving: () => this.#camera.moving,
+      step: (seconds) => {
+        const moved = this.#camera.step(seconds);
+        return this.#model.player?.step(seconds) || moved;
+      },
+      moving: () => this.#camera.moving || this.#model.player?.paused === false,
       camera: (aspect) => this.#camera.camera(aspect) as Camera,
     }));
     this.denoise = options.denoise;
@@ -152,6 +156,22 @@ export class Viewer {
    */
   setVariant(variant: string | undefined): Promise<void> {
     return this.#model.setVariant(variant);
+  }
+
+  /**
+   * What plays the model's animations, which `scene.animations` lists: fetched with the first call, and another one for
+   * each model. Frames are previews while one plays; where it rests, the image of that pose is refined to its end.
+   *
+   * @throws {ViewerError} `viewer/animation` where there is no model with animations; {GltfError} where the file cannot
+   * be read again; an `AbortError` where another model was shown meanwhile.
+   * @example
+   * const animation = await viewer.animation();
+   * animation.name = 'open';
+   * animation.play({ repetitions: 1 });
+   */
+  async animation(): Promise<AnimationPlayer> {
+    sceneOf(this.#engine);
+    return this.#model.animation();
   }
 
   /**
