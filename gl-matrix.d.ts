@@ -36,6 +36,8 @@ declare module 'gl-matrix/esm/mat4.js' {
   type M = ArrayLike<number>;
   /** a · b: b first, then a. */
   export function multiply<Out extends GlMatrixOut>(out: Out, a: M, b: M): Out;
+  /** `null` where the matrix has no inverse. */
+  export function invert<Out extends GlMatrixOut>(out: Out, m: M): Out | null;
   /** Scaled, then rotated by the unit quaternion xyzw, then translated. */
   export function fromRotationTranslationScale<Out extends GlMatrixOut>(
     out: Out,

@@ -50,6 +50,16 @@ export async function dress(viewer: Viewer): Promise<void> {
 }
 // #endregion edit
 
+// #region animation
+export async function openLid(viewer: Viewer): Promise<void> {
+  const animation = await viewer.animation();
+  const [first] = animation.animations;
+  animation.name = first?.name;
+  animation.play({ repetitions: 1 });
+  viewer.on('finished', () => void (animation.currentTime = 0));
+}
+// #endregion animation
+
 // #region look
 export function look(viewer: Viewer): void {
   viewer.orbitLimits = { phi: [0.2, Math.PI / 2], radius: [2, 8] };

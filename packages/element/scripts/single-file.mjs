@@ -1,7 +1,7 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
-// only some files need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes), and what saves images, lies
-// beside it and is fetched by import() when it is needed.
+// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, animations, a ground), and what
+// saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -31,6 +31,8 @@ const LATER = {
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
   './material-colors': 'glanz-viewer.colors.min.js',
+  './animation-player': 'glanz-viewer.animation.min.js',
+  './stage': 'glanz-viewer.stage.min.js',
   './gpu-trees': 'glanz-viewer.gpu-trees.min.js',
 };
 
@@ -38,8 +40,13 @@ const LATER = {
 const SOURCES = {
   './save-image': './src/save-image',
   './material-colors': './src/material-colors',
+  './animation-player': './src/animation-player',
+  './stage': './src/stage',
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
 };
+
+/** What the player of animations uses of them. */
+const SHARED = Object.fromEntries(['meshoptimizer/decoder', './stage'].map((module) => [module, LATER[module]]));
 
 /** The same for modules of src/decoders, by their names there; of each, what it exports. */
 const DECODERS = {
@@ -116,7 +123,7 @@ const beside = (files) => ({
   name: 'beside',
   setup(context) {
     context.onResolve(
-      { filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|gpu-trees)$)/ },
+      { filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|gpu-trees)$)/ },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );
     context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) =>
@@ -153,7 +160,12 @@ export async function buildSingleFile(folder, to) {
     );
   // Their errors are of the same class.
   for (const [module, name] of Object.entries(LATER))
-    names.push(await write(`export * from '${SOURCES[module] ?? module}';`, name, { '@glanz/wgsl/error': MAIN }));
+    names.push(
+      await write(`export * from '${SOURCES[module] ?? module}';`, name, {
+        '@glanz/wgsl/error': MAIN,
+        ...(module === './animation-player' ? SHARED : {}),
+      }),
+    );
   for (const [module, { file, exports }] of Object.entries(DECODERS))
     names.push(
       await write(`export { ${exports} } from '../element/src/decoders/${module}';`, file, {

@@ -1,5 +1,5 @@
 import type { PickResult } from '@glanz/renderer';
-import type { BlobOptions, ModelSource, Orbit, Viewer, ViewerEvents } from '@glanz/viewer';
+import type { BlobOptions, ModelSource, Orbit, PlayOptions, Viewer, ViewerEvents } from '@glanz/viewer';
 import type { ReflectedProperties } from './attributes';
 import type { HotspotView } from './hotspots';
 
@@ -30,6 +30,14 @@ export interface GlanzViewerEventMap {
   'device-restored': CustomEvent<ViewerEvents['device-restored']>;
   /** The poster went. */
   'poster-dismissed': CustomEvent<undefined>;
+  /** An animation plays from now on. */
+  play: CustomEvent<ViewerEvents['play']>;
+  /** The animation has been paused. */
+  pause: CustomEvent<ViewerEvents['pause']>;
+  /** The animation begins again; `count`: how often it has played. */
+  loop: CustomEvent<ViewerEvents['loop']>;
+  /** The animation has played as often as `play()` was asked to. */
+  finished: CustomEvent<ViewerEvents['finished']>;
   /** The variant that `variant-name` names is shown. */
   'variant-applied': CustomEvent<{ readonly variantName: string | null }>;
 }
@@ -61,6 +69,23 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   readonly loaded: boolean;
   /** Names of the model's variants. */
   readonly availableVariants: readonly string[];
+  /** Names of the model's animations. */
+  readonly availableAnimations: readonly string[];
+  /** Whether no animation plays. */
+  readonly paused: boolean;
+  /** Seconds of the animation that `animation-name` names, or else of the first one; 0 without one. */
+  readonly duration: number;
+  /** Seconds from the start of the animation; set, it poses the model, whether an animation plays or not. */
+  currentTime: number;
+  /** Factor of the animation's speed; below 0 it plays backwards. Default 1. */
+  timeScale: number;
+  /**
+   * Plays the animation that `animation-name` names, or else the first one, from where it is: without end, or so many
+   * `repetitions`, every second one backwards with `pingpong`. Does nothing before the `load` event.
+   */
+  play(options?: PlayOptions): void;
+  /** Stops the animation where it is; the image of that pose is then refined to its end. */
+  pause(): void;
   /** Shows a model that has no address: a file, files, or a scene. Stays until `src` changes. */
   show(source: ModelSource): Promise<void>;
   /**

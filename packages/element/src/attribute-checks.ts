@@ -1,6 +1,7 @@
 import { optionValues, RENDER_OPTIONS, takesOption, type RenderOptionName } from '@glanz/renderer/options';
 import { TONE_MAPS } from '@glanz/tonemap';
 import { ATTRIBUTES, camel, type AttributeName } from './attributes';
+import { readOrientation, readScale } from './placement';
 import { angle, length } from './units';
 
 type Range = readonly [low: number, high: number];
@@ -19,6 +20,8 @@ const NUMBERS: Readonly<Partial<Record<AttributeName, Range>>> = {
   'environment-intensity': [0, 1e9],
   'interpolation-decay': [0, 60_000],
   'auto-rotate-delay': [0, 1e9],
+  'shadow-intensity': [0, 1],
+  'ground-reflection': [0, 1],
 };
 
 /** Names that model-viewer has for tone maps. */
@@ -68,6 +71,8 @@ const TEXTS: Readonly<Partial<Record<AttributeName, readonly [takes: string, tes
   ],
   'field-of-view': ['an angle between 0 and 180 degrees, or "auto"', isFieldOfView],
   'environment-rotation': ['an angle', (text) => angle(text.trim()) !== undefined],
+  orientation: ['three angles: roll, pitch and yaw', (text) => readOrientation(text) !== undefined],
+  scale: ['one or three numbers that are not 0', (text) => readScale(text) !== undefined],
   'rotation-per-second': ['an angle', (text) => angle(text.trim()) !== undefined],
   'tone-mapping': [
     `one of ${[...TONE_MAPS, ...Object.keys(TONE_MAP_NAMES)].join(', ')}`,

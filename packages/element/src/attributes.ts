@@ -121,6 +121,32 @@ export const ATTRIBUTES = {
    * @defaultValue neutral
    */
   'tone-mapping': 'text',
+  /** Name of the animation that poses the model, and that plays; without it the first one plays. */
+  'animation-name': 'text',
+  /** The animation plays when the model is loaded, unless the user asks for less motion. */
+  autoplay: 'flag',
+  /**
+   * How the model is turned: `roll pitch yaw`, about +Z, then +X, then +Y, in deg or rad.
+   * @defaultValue 0deg 0deg 0deg
+   */
+  orientation: 'text',
+  /**
+   * Factors of the model's size along x, y and z, which are not 0; one for all of them.
+   * @defaultValue 1 1 1
+   */
+  scale: 'text',
+  /**
+   * Strength of the shadow on the ground beneath the model, 0 to 1. The shadow is as soft as the lights make it.
+   * @defaultValue 0
+   */
+  'shadow-intensity': 'number',
+  /**
+   * Strength of the model's reflection in the ground, 0 to 1; where `shadow-intensity` is not given, that is 1.
+   * @defaultValue 0
+   */
+  'ground-reflection': 'number',
+  /** Requests for models and environments send credentials to other origins too. */
+  'with-credentials': 'flag',
   /** Name of the model's material variant; its own without. */
   'variant-name': 'text',
   /**

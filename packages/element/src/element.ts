@@ -2,7 +2,16 @@ import { TONE_MAPS, type ToneMap } from '@glanz/tonemap';
 import type { BackFaceCulling, PickResult } from '@glanz/renderer';
 import { RENDER_OPTIONS, takesOption } from '@glanz/renderer/options';
 import type { Scene } from '@glanz/scene';
-import { createViewer, type EnvironmentSource, type ModelSource, type Orbit, type Viewer } from '@glanz/viewer';
+import {
+  createViewer,
+  type EnvironmentSource,
+  type GroundOptions,
+  type ModelSource,
+  type Orbit,
+  type PlayOptions,
+  type Viewer,
+} from '@glanz/viewer';
+import { ElementAnimation } from './animation';
 import type { ElementBlobOptions, GlanzViewerConstructor, GlanzViewerElement, GlanzViewerEventMap } from './api';
 import { attributeFault, numberIn, TONE_MAP_NAMES } from './attribute-checks';
 import { ATTRIBUTES, type AttributeName } from './attributes';
@@ -10,6 +19,7 @@ import { packagedDecoders, type DecoderAddresses } from './decoders';
 import { denoiseBy } from './denoise-module';
 import { ElementError } from './errors';
 import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
+import { placementOf } from './placement';
 import { adoptProperties, reflectAttributes } from './reflect';
 import { fillShadow, type Shadow } from './shadow';
 import { angle } from './units';
@@ -42,6 +52,13 @@ function warnOfExposure(): void {
   console.warn('<glanz-viewer>: "exposure", a factor, is deprecated; use "exposure-ev", its base-2 logarithm.');
 }
 
+/** A number as a property takes it. @throws {ElementError} `element/property` */
+function finite(name: string, value: unknown): number {
+  if (typeof value === 'number' && Number.isFinite(value)) return value;
+  const given = typeof value === 'number' ? String(value) : `of the type "${typeof value}"`;
+  throw new ElementError('element/property', `The property ${name} of <glanz-viewer> is ${given}; it takes a number.`);
+}
+
 /** The class of the element, made when it is first asked for: a server has no `HTMLElement`. */
 export function glanzViewerClass(): GlanzViewerConstructor {
   return (made ??= makeClass());
@@ -58,6 +75,12 @@ function makeClass(): GlanzViewerConstructor {
     #revealed = false;
     #source: ModelSource | undefined;
     #speaking: ReturnType<typeof setTimeout> | undefined;
+    readonly #animation = new ElementAnimation({
+      viewer: () => this.#viewer,
+      name: () => this.getAttribute('animation-name'),
+      autoplay: () => this.hasAttribute('autoplay') && !matchMedia('(prefers-reduced-motion: reduce)').matches,
+      fail: (error) => this.#fail(error),
+    });
     /** Texts that their attributes do not take, which have been reported. */
     readonly #faults = new Map<AttributeName, string>();
 
@@ -71,6 +94,42 @@ function makeClass(): GlanzViewerConstructor {
 
     get availableVariants(): readonly string[] {
       return this.#viewer?.variants ?? [];
+    }
+
+    get availableAnimations(): readonly string[] {
+      return this.#animation.available;
+    }
+
+    get paused(): boolean {
+      return this.#animation.paused;
+    }
+
+    get duration(): number {
+      return this.#animation.duration;
+    }
+
+    get currentTime(): number {
+      return this.#animation.currentTime;
+    }
+
+    set currentTime(seconds: number) {
+      this.#animation.currentTime = finite('currentTime', seconds);
+    }
+
+    get timeScale(): number {
+      return this.#animation.timeScale;
+    }
+
+    set timeScale(factor: number) {
+      this.#animation.timeScale = finite('timeScale', factor);
+    }
+
+    play(options?: PlayOptions): void {
+      this.#animation.play(options);
+    }
+
+    pause(): void {
+      this.#animation.pause();
     }
 
     connectedCallback(): void {
@@ -122,6 +181,12 @@ function makeClass(): GlanzViewerConstructor {
         this.#source = undefined;
         this.#load(viewer);
       } else if (name === 'denoise') this.#denoise(viewer);
+      else if (name === 'animation-name') this.#animation.rename();
+      else if (name === 'autoplay') {
+        if (now !== null && this.#loaded) this.#animation.play();
+      } else if (name === 'orientation' || name === 'scale') viewer.modelTransform = this.#placement;
+      else if (name === 'shadow-intensity' || name === 'ground-reflection') viewer.ground = this.#ground;
+      else if (name === 'with-credentials') viewer.credentials = this.#credentials;
       else if (name === 'variant-name') this.#setVariant(viewer);
       else if (LIGHT.has(name)) {
         viewer.background = this.#background;
@@ -256,6 +321,20 @@ function makeClass(): GlanzViewerConstructor {
       return image === 'neutral' || image === 'legacy' ? 'studio' : image;
     }
 
+    get #placement(): number[] | undefined {
+      return placementOf(this.getAttribute('orientation'), this.getAttribute('scale'));
+    }
+
+    get #ground(): GroundOptions | undefined {
+      const reflection = this.#number('ground-reflection') ?? 0;
+      const shadow = this.#number('shadow-intensity') ?? (reflection > 0 ? 1 : 0);
+      return shadow > 0 ? { shadow, reflection } : undefined;
+    }
+
+    get #credentials(): RequestCredentials {
+      return this.hasAttribute('with-credentials') ? 'include' : 'same-origin';
+    }
+
     get #culling(): BackFaceCulling {
       const mode = this.getAttribute('back-face-culling');
       return takesOption('backFaceCulling', mode) ? (mode as BackFaceCulling) : RENDER_OPTIONS.backFaceCulling.default;
@@ -285,6 +364,9 @@ function makeClass(): GlanzViewerConstructor {
         environment: this.#environment,
         background: this.#background,
         controls: false,
+        modelTransform: this.#placement,
+        ground: this.#ground,
+        credentials: this.#credentials,
         decoders: packagedDecoders(this.#decoders),
         tracer: { backFaceCulling: this.#culling },
         camera: (scene, aspect) => cameraOf(scene, aspect, this.#view),
@@ -340,7 +422,16 @@ function makeClass(): GlanzViewerConstructor {
     }
 
     #listen(viewer: Viewer, { bar, poster, progress, message }: Shadow): void {
-      for (const type of ['sample', 'converged', 'device-lost', 'device-restored'] as const)
+      for (const type of [
+        'sample',
+        'converged',
+        'device-lost',
+        'device-restored',
+        'play',
+        'pause',
+        'loop',
+        'finished',
+      ] as const)
         viewer.on(type, (detail) => this.#emit(type, detail));
       const alert = (text: string) => {
         progress.classList.add('gone');
@@ -362,6 +453,7 @@ function makeClass(): GlanzViewerConstructor {
         this.#attempt(() => void (viewer.orbitLimits = limitsOf(detail.scene, this.#aspect, this.#view)));
         this.#speak(`${this.#name} is there.`);
         this.#emit('load', detail);
+        this.#animation.begin(detail.scene.animations);
       });
       viewer.on('error', (detail) => {
         alert(detail.message);

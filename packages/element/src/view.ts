@@ -1,5 +1,5 @@
 import { sceneBounds, type PerspectiveCamera, type Scene } from '@glanz/scene';
-import type { Orbit, OrbitLimits } from '@glanz/viewer';
+import { withoutGround, type Orbit, type OrbitLimits } from '@glanz/viewer';
 import { DEFAULT_ORBIT, readFieldOfView, readLimit, readOrbit, readPoint, type OrbitBasis } from './units';
 
 /** What the attributes say about the view. */
@@ -24,7 +24,7 @@ interface Frame {
  * fits the smaller of the image's sides.
  */
 function frameOf(scene: Scene, aspect: number, attributes: ViewAttributes): Frame {
-  const { min, max } = sceneBounds(scene);
+  const { min, max } = sceneBounds(withoutGround(scene));
   const finite = min[0] <= max[0];
   const center = finite
     ? ([0, 1, 2].map((k) => ((min[k] as number) + (max[k] as number)) / 2) as unknown as Point)

@@ -67,6 +67,8 @@ export interface LoadGltfOptions extends GltfOptions {
   readonly baseUrl?: string | URL | undefined;
   /** Default: the global `fetch`. */
   readonly fetch?: typeof fetch | undefined;
+  /** Whether requests send cookies and other credentials to other origins too. Default: `same-origin`. */
+  readonly credentials?: RequestCredentials | undefined;
 }
 
 /**
@@ -83,6 +85,7 @@ export async function loadGltf(input: GltfInput, options: LoadGltfOptions = {}):
   const source = await openSource(input, {
     fetch: options.fetch ?? globalThis.fetch,
     baseUrl: options.baseUrl,
+    credentials: options.credentials,
     signal: options.signal,
     maxBytes: options.limits?.fileBytes ?? DEFAULT_LIMITS.fileBytes,
     onBytes: (done) => options.onProgress?.({ stage: 'read', done: 0.99 * done }),

@@ -34,7 +34,7 @@ export interface PoseChange {
 /** Options for {@link openAnimations}. */
 export type OpenAnimationsOptions = Pick<
   LoadGltfOptions,
-  'signal' | 'decoders' | 'limits' | 'baseUrl' | 'fetch' | 'scene'
+  'signal' | 'decoders' | 'limits' | 'baseUrl' | 'fetch' | 'credentials' | 'scene'
 >;
 
 /** What is read of a mesh once. */
@@ -335,6 +335,7 @@ export async function openAnimations(
   const source = await openSource(input, {
     fetch: options.fetch ?? globalThis.fetch,
     baseUrl: options.baseUrl,
+    credentials: options.credentials,
     signal,
     maxBytes: limits?.fileBytes ?? DEFAULT_LIMITS.fileBytes,
     onBytes: () => undefined,

@@ -95,6 +95,7 @@ export async function openSource(
   options: {
     readonly fetch: typeof globalThis.fetch;
     readonly baseUrl: string | URL | undefined;
+    readonly credentials: RequestCredentials | undefined;
     readonly signal: AbortSignal | undefined;
     readonly maxBytes: number;
     readonly onBytes: (done: number) => void;
@@ -102,11 +103,11 @@ export async function openSource(
 ): Promise<Source> {
   if (typeof input === 'object' && 'files' in input) return fromFiles(input);
   // Called without a receiver: browsers reject fetch as a method of another object.
-  const { fetch, maxBytes, onBytes } = options;
+  const { fetch, credentials, maxBytes, onBytes } = options;
   const get = async (url: URL, uri: string, name: string, signal: AbortSignal | undefined) => {
     let response: Response;
     try {
-      response = await fetch(url, signal ? { signal } : {});
+      response = await fetch(url, { ...(signal ? { signal } : {}), ...(credentials ? { credentials } : {}) });
     } catch (cause) {
       signal?.throwIfAborted();
       throw new GltfError(

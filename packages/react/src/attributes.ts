@@ -50,6 +50,9 @@ const WORDS: Readonly<Record<Single<AttributeName>, true>> = {
   noise: true,
   denoise: true,
   preview: true,
+  autoplay: true,
+  orientation: true,
+  scale: true,
 };
 
 /**

@@ -35,6 +35,10 @@ export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src
   readonly onConverged?: (detail: Detail<'converged'>) => void;
   readonly onCameraChange?: (detail: Detail<'camera-change'>) => void;
   readonly onVariantApplied?: (detail: Detail<'variant-applied'>) => void;
+  readonly onPlay?: (detail: Detail<'play'>) => void;
+  readonly onPause?: (detail: Detail<'pause'>) => void;
+  readonly onLoop?: (detail: Detail<'loop'>) => void;
+  readonly onFinished?: (detail: Detail<'finished'>) => void;
   readonly onPosterDismissed?: () => void;
   readonly onDeviceLost?: (detail: Detail<'device-lost'>) => void;
   readonly onDeviceRestored?: (detail: Detail<'device-restored'>) => void;
@@ -49,6 +53,10 @@ const EVENTS = {
   onConverged: 'converged',
   onCameraChange: 'camera-change',
   onVariantApplied: 'variant-applied',
+  onPlay: 'play',
+  onPause: 'pause',
+  onLoop: 'loop',
+  onFinished: 'finished',
   onPosterDismissed: 'poster-dismissed',
   onDeviceLost: 'device-lost',
   onDeviceRestored: 'device-restored',

@@ -2,7 +2,7 @@ import type { AttributeName, ATTRIBUTES, GlanzViewerElement, ReflectedProperties
 import type { DetailedHTMLProps, HTMLAttributes } from 'react';
 
 /** Events of the element that React knows under the same name, with another argument. */
-type OwnEvents = 'onLoad' | 'onProgress' | 'onError';
+type OwnEvents = 'onLoad' | 'onProgress' | 'onError' | 'onPlay' | 'onPause';
 
 /** What React takes for any HTML element, less what `<glanz-viewer>` defines itself. */
 export type HtmlProps = Omit<

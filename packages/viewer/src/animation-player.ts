@@ -7,6 +7,7 @@ import type { Scene, SceneAnimation } from '@glanz/scene';
 import { ViewerError } from './errors';
 import type { ViewerEvents } from './events';
 import type { RefitHierarchy } from './hierarchies';
+import { placed, placedLight } from './stage';
 import { gltfSourceOf, meshoptDecoder, type LoadModelOptions, type ModelSource } from './load';
 
 /** Options for {@link AnimationPlayer.play}. */
@@ -23,6 +24,9 @@ export interface AnimatedModel {
   readonly source: ModelSource;
   readonly scene: Scene;
   readonly decoders: LoadModelOptions['decoders'];
+  readonly credentials: LoadModelOptions['credentials'];
+  /** Where the model is placed in the world; undefined: where its file places it. */
+  readonly place: () => readonly number[] | undefined;
   /** Applies a change with the next frame; of several that wait, the last one counts. */
   readonly edit: (change: (tracer: PathTracer) => void | Promise<void>) => Promise<void>;
   /** Wakes the viewer's loop. */
@@ -216,11 +220,14 @@ export class AnimationPlayer {
     if (this.#destroyed) return undefined;
     const change = this.#poser.pose(this.#name, this.#time);
     const { failed } = this.#model;
+    const place = this.#model.place();
     // Their images are those of the next sample; what the GPU says to them comes later.
     const now = (edit: Promise<void>) => void edit.catch(failed);
-    for (const { instance, transform } of change.transforms) now(tracer.setInstanceTransform(instance, transform));
+    for (const { instance, transform } of change.transforms)
+      now(tracer.setInstanceTransform(instance, place ? placed(place, transform) : transform));
     for (const { instance, visible } of change.visibility) now(tracer.setVisibility(instance, visible));
-    for (const { index, light } of change.lights) now(tracer.setLight(index, light));
+    for (const { index, light } of change.lights)
+      now(tracer.setLight(index, place ? placedLight(place, light) : light));
     if (change.meshes.length === 0) return undefined;
     this.#deforming = true;
     return Promise.all(change.meshes.map(({ mesh, deformed }) => tracer.replaceMesh(mesh, deformed))).then(
@@ -248,8 +255,9 @@ export async function openPlayer(model: AnimatedModel): Promise<AnimationPlayer>
   const source = gltfSourceOf(model.source);
   if (source === undefined)
     throw new ViewerError('viewer/animation', 'The model was not loaded from a glTF file: it has no animations.');
+  const { credentials, scene } = model;
   const decoders = { meshopt: meshoptDecoder, ...model.decoders };
-  return new AnimationPlayer(model, await openAnimations(source, model.scene, { decoders }));
+  return new AnimationPlayer(model, await openAnimations(source, scene, { decoders, credentials }));
 }
 
 /**

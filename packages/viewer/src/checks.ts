@@ -11,9 +11,11 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { Engine } from './engine';
 import { previewOptions } from './engine-settings';
 import { destroyed, ViewerError } from './errors';
+import type { GroundOptions } from './ground';
 import type { ViewerOptions } from './options';
 import { column, type Orbit, type OrbitLimits, type Vector } from './orbit-state';
 import type { PreviewMode } from './preview';
+import type { Stage } from './stage';
 
 /** Metres: beyond, single precision, in which the GPU computes, has no digits left for a model. */
 const FAR = 1e12;
@@ -111,6 +113,23 @@ export function checkSettings(options: ViewerOptions): void {
     const value = inner === undefined ? options[group] : (preview as Readonly<Record<string, unknown>>)[inner];
     if (value !== undefined) checkedSetting(name, value);
   }
+}
+
+/** @throws {ViewerError} `viewer/option` for what is no place of a model, or no ground. */
+export function checkedStage({ modelTransform, ground }: Pick<ViewerOptions, 'modelTransform' | 'ground'>): Stage {
+  const stage: { transform?: readonly number[]; ground?: GroundOptions } = {};
+  if (modelTransform !== undefined) {
+    const m = (stage.transform = Array.from(modelTransform));
+    const volume = dot(cross([0, 0, 0], m.slice(0, 3), m.slice(4, 7)), m.slice(8, 11));
+    if (m.length !== 16 || !m.every(Number.isFinite) || !volume)
+      throw wrong('modelTransform', m.join(), '16 finite numbers, of a matrix that has an inverse', 'viewer/option');
+  }
+  if (ground !== undefined) {
+    number(ground.shadow ?? 1, 'ground.shadow', 0, 1, 'viewer/option');
+    number(ground.reflection ?? 0, 'ground.reflection', 0, 1, 'viewer/option');
+    stage.ground = ground;
+  }
+  return stage;
 }
 
 /**

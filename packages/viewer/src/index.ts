@@ -9,6 +9,7 @@ export type { ImageProgress } from './render-image';
 export type { MaterialEdit } from './material-colors';
 export type { ControlOptions } from './controls';
 export type { Denoising } from './denoise-session';
+export { withoutGround, type GroundOptions } from './ground';
 export type { EnvironmentSource, ModelSource } from './load';
 export type { Orbit, OrbitLimits, Vector } from './orbit-state';
 export type { Projection } from './project';

@@ -28,6 +28,8 @@ export interface LoadModelOptions {
    * Starts the worker that reads glTF: a file of yours that calls `serveGltf` of `@glanz/gltf/worker` with decoders.
    */
   readonly createWorker?: (() => Worker) | undefined;
+  /** Whether requests send credentials to other origins too. Default: `same-origin`. */
+  readonly credentials?: RequestCredentials | undefined;
   /** What the GPU reads of compressed formats: images in KTX2 stay packed. Default: they are unpacked. */
   readonly compressedFormats?: (() => Promise<readonly CompressedFormat[]>) | undefined;
 }
@@ -93,7 +95,7 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
     const base = addressOf(source, 'viewer/no-model');
     return readOther(
       decodeURIComponent(base.pathname.slice(base.pathname.lastIndexOf('/') + 1)),
-      (path) => fetchBytes(new URL(path, base), signal),
+      (path) => fetchBytes(new URL(path, base), signal, options.credentials),
       signal,
     );
   }
@@ -135,12 +137,13 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
 export async function loadEnvironment(
   source: EnvironmentSource,
   signal?: AbortSignal,
+  credentials?: RequestCredentials,
 ): Promise<Environment | undefined> {
   if (source === 'scene' || source === 'none') return undefined;
   if (source === 'studio') return inSlices((await import('@glanz/scene/studio')).studioSteps(), { signal });
   let bytes;
   if (typeof source === 'string' || source instanceof URL) {
-    bytes = await fetchBytes(addressOf(source, 'viewer/environment'), signal);
+    bytes = await fetchBytes(addressOf(source, 'viewer/environment'), signal, credentials);
     if (!bytes)
       throw new ViewerError(
         'viewer/environment',
@@ -164,9 +167,13 @@ export async function loadEnvironment(
 const bytesOf = async (body: Blob | Response) => new Uint8Array(await body.arrayBuffer());
 
 /** The bytes at an address, or `undefined` where there are none. */
-async function fetchBytes(url: URL, signal: AbortSignal | undefined): Promise<Uint8Array<ArrayBuffer> | undefined> {
+async function fetchBytes(
+  url: URL,
+  signal: AbortSignal | undefined,
+  credentials: RequestCredentials = 'same-origin',
+): Promise<Uint8Array<ArrayBuffer> | undefined> {
   try {
-    const response = await fetch(url, signal ? { signal } : {});
+    const response = await fetch(url, { credentials, ...(signal ? { signal } : {}) });
     return response.ok ? await bytesOf(response) : undefined;
   } catch {
     signal?.throwIfAborted();
@@ -189,8 +196,8 @@ export const meshoptDecoder = async (): Promise<unknown> => (await import('mesho
 type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; readonly entry: string };
 
 async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<Scene> {
-  const { signal, onProgress, decoders, createWorker, compressedFormats } = options;
-  const common = { signal, onProgress };
+  const { signal, onProgress, decoders, createWorker, compressedFormats, credentials } = options;
+  const common = { signal, onProgress, credentials };
   try {
     const { loadGltfInWorker } = await import('@glanz/gltf/workers');
     return await loadGltfInWorker(source, {

@@ -5,6 +5,7 @@ import type { Camera, Scene } from '@glanz/scene';
 import type { ToneMap } from '@glanz/tonemap';
 import type { ControlOptions } from './controls';
 import type { Denoising } from './denoise-session';
+import type { GroundOptions } from './ground';
 import type { EnvironmentSource } from './load';
 import type { OrbitLimits } from './orbit-state';
 import type { PreviewMode } from './preview';
@@ -94,6 +95,21 @@ export interface ViewerOptions {
   readonly preview?: PreviewMode | PreviewOptions;
   /** GPU milliseconds that one submission should take at most while the image is refined. Default 16. */
   readonly maxSubmitMs?: number;
+  /**
+   * Where the model is placed: an affine matrix with an inverse, 16 numbers, column-major. Default: where its file
+   * places it. Changeable; a change moves the model and not the camera.
+   */
+  readonly modelTransform?: ArrayLike<number> | undefined;
+  /**
+   * Ground beneath the model that catches its shadows and, on request, its reflection; it is invisible otherwise, and
+   * takes light from below as a floor does. Default: none. Changeable.
+   */
+  readonly ground?: GroundOptions | undefined;
+  /**
+   * Whether requests for models and environments send cookies and other credentials to other origins too. Default:
+   * `same-origin`. Changeable.
+   */
+  readonly credentials?: RequestCredentials | undefined;
   /** Decoders of compressed meshes and images; meshopt is there by itself. */
   readonly decoders?: GltfDecoders;
   /** Starts the worker that reads glTF, see `LoadModelOptions.createWorker`. */

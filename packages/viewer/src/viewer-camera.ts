@@ -15,6 +15,7 @@ import type { Engine } from './engine';
 import { ViewerError } from './errors';
 import type { CameraChangeSource, ViewerEvents } from './events';
 import { fitCamera } from './fit-camera';
+import { withoutGround } from './ground';
 import type { ViewerOptions } from './options';
 import { OrbitRig } from './orbit';
 import { column, type Orbit, type OrbitLimits, type Vector } from './orbit-state';
@@ -99,7 +100,7 @@ export class ViewerCamera {
 
   /** See `Viewer.setCamera`. */
   setCamera(camera: Camera | number | string, move?: Move): void {
-    const scene = sceneOf(this.#engine);
+    const scene = withoutGround(sceneOf(this.#engine));
     this.#rig?.setCamera(finish(this.choose(scene, camera)));
     this.#moved(move);
   }
@@ -128,7 +129,7 @@ export class ViewerCamera {
 
   /** See `Viewer.frame`. */
   frame(move?: Move & { readonly direction?: Vector }): void {
-    const scene = sceneOf(this.#engine);
+    const scene = withoutGround(sceneOf(this.#engine));
     const rig = this.#rig as OrbitRig;
     const direction =
       move?.direction === undefined ? column(rig.camera().transform, 8) : checkedDirection(move.direction, 'direction');

@@ -31,9 +31,12 @@ export class ViewerEnvironment {
   #now: Setting;
   /** The last one that a tracer accepted. */
   #accepted: Setting;
+  /** Of the requests for environments. */
+  credentials: RequestCredentials | undefined;
 
   constructor(engine: Engine, options: ViewerOptions) {
     this.#engine = engine;
+    this.credentials = options.credentials;
     this.#now = this.#accepted = {
       source: options.environment ?? 'scene',
       loaded: undefined,
@@ -66,7 +69,7 @@ export class ViewerEnvironment {
   async change(source: EnvironmentSource, scene: Scene | undefined, signal: AbortSignal | undefined): Promise<void> {
     const reason = 'another environment was requested';
     const loaded = await this.#changing.run(reason, signal, (either) =>
-      untilAborted(loadFor(scene, source, either), either),
+      untilAborted(loadFor(scene, source, either, this.credentials), either),
     );
     await this.set({ source, loaded });
   }
@@ -83,7 +86,7 @@ export class ViewerEnvironment {
   async fetch(signal: AbortSignal): Promise<(scene: Scene) => Promise<Prepared>> {
     const { source } = this.#now;
     let warning: ViewerError | undefined;
-    const given = await loadEnvironment(source, signal).catch((cause: unknown) => {
+    const given = await loadEnvironment(source, signal, this.credentials).catch((cause: unknown) => {
       signal.throwIfAborted();
       const [why] = (cause instanceof Error ? cause.message : String(cause)).split('\n');
       warning = new ViewerError('viewer/environment', `${why} The studio lights the model instead.`, { cause });
@@ -141,8 +144,9 @@ async function loadFor(
   scene: Scene | undefined,
   source: EnvironmentSource,
   signal: AbortSignal,
+  credentials: RequestCredentials | undefined,
 ): Promise<Environment | undefined> {
-  const given = await loadEnvironment(source, signal);
+  const given = await loadEnvironment(source, signal, credentials);
   signal.throwIfAborted();
   const loaded = await forScene(source, given, scene);
   // Without a tracer nothing else validates it.

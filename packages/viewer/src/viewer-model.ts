@@ -1,7 +1,7 @@
 import type { PathTracer } from '@glanz/renderer';
 import type { AnimationPlayer } from './animation-player';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
-import { sceneOf } from './checks';
+import { checkedStage, sceneOf } from './checks';
 import type { Emitter } from './emitter';
 import type { Engine, TracerSpec } from './engine';
 import { abortError, isAbort, isLoss } from './aborts';
@@ -12,6 +12,7 @@ import { LatestTask } from './latest-task';
 import { loadModel, type ModelSource } from './load';
 import type { linearColors, MaterialEdit } from './material-colors';
 import type { LoadOptions, ViewerOptions } from './options';
+import type { Stage } from './stage';
 import { plainScene } from './variants';
 import type { ViewerCamera } from './viewer-camera';
 import { withEnvironment, type ViewerEnvironment } from './viewer-environment';
@@ -43,6 +44,11 @@ export class ViewerModel {
   /** What {@link loaded} was loaded from. */
   #source: ModelSource | undefined;
   #opening: Promise<AnimationPlayer> | undefined;
+  /** Where models are placed, and where the one in the tracer is. */
+  stage: Stage;
+  #staged: Stage = {};
+  /** Of the requests for models. */
+  credentials: RequestCredentials | undefined;
   /** Plays the animations of {@link loaded}, once that was asked for. */
   player: AnimationPlayer | undefined;
 
@@ -59,6 +65,8 @@ export class ViewerModel {
     this.#camera = camera;
     this.#environment = environment;
     this.variant = options.variant;
+    this.credentials = options.credentials;
+    this.stage = checkedStage(options);
   }
 
   /** See `Viewer.load`. */
@@ -108,6 +116,30 @@ export class ViewerModel {
     return this.#engine.edit(`material ${nameOrIndex}`, set, parameters);
   }
 
+  /** Places the model, or puts a ground beneath it. Resolves when the image shows it. */
+  async setStage(change: Stage): Promise<void> {
+    this.stage = { ...this.stage, ...change };
+    if (this.loaded) await this.#restage();
+  }
+
+  async #restage(): Promise<void> {
+    const engine = this.#engine;
+    const { canEdit, changeStage, grounded } = await import('./stage');
+    await engine.edit('stage', (tracer) => {
+      const before = this.#staged;
+      this.#staged = this.stage;
+      return changeStage(tracer, before, this.stage);
+    });
+    const { tracer, loaded } = { tracer: engine.tracer, loaded: this.loaded };
+    if (!tracer || !loaded || canEdit(tracer.scene, this.stage)) return;
+    // Only another tracer has a further instance.
+    const first = { scene: loaded, shown: loaded, camera: tracer.camera, variant: this.variant };
+    await engine.show((former) => {
+      const spec = this.#specify(former ?? tracer, first);
+      return { ...spec, scene: grounded(spec.scene, this.stage) };
+    });
+  }
+
   /** See `Viewer.animation`. */
   animation(): Promise<AnimationPlayer> {
     const opening = (this.#opening ??= this.#open());
@@ -125,6 +157,8 @@ export class ViewerModel {
       source: this.#source as ModelSource,
       scene,
       decoders: this.#options.decoders,
+      credentials: this.credentials,
+      place: () => this.#staged.transform,
       edit: (change) => engine.edit('animation', change),
       wake: () => engine.wake(),
       emit: (type, detail) => this.#events.emit(type, detail),
@@ -154,11 +188,17 @@ export class ViewerModel {
       signal,
       decoders,
       createWorker,
+      credentials: this.credentials,
       compressedFormats: () => engine.compressedFormats(),
       onProgress,
     });
-    const [scene, prepare] = await Promise.all([reading, this.#environment.fetch(signal), engine.connect()]);
+    const [raw, prepare] = await Promise.all([reading, this.#environment.fetch(signal), engine.connect()]);
     signal.throwIfAborted();
+    const { stage } = this;
+    const isStaged = stage.transform || stage.ground;
+    const { model: scene, shown } = isStaged
+      ? (await import('./stage')).staged(raw, stage)
+      : { model: raw, shown: raw };
     const { lit, warning, adopt } = await prepare(scene);
     // Each iterates over all vertices.
     const camera = await inSlices(this.#camera.choose(scene, options.camera ?? firstView), { signal });
@@ -166,8 +206,8 @@ export class ViewerModel {
     const requested = options.variant ?? firstVariant;
     const variant = requested !== undefined && scene.variants?.includes(requested) ? requested : undefined;
     const first = {
-      scene,
-      shown: withEnvironment(scene, lit),
+      scene: raw,
+      shown: withEnvironment(shown, lit),
       camera: fitCamera(camera, this.#camera.aspect),
       variant,
     };
@@ -178,13 +218,15 @@ export class ViewerModel {
         this.player?.destroy();
         this.player = this.#opening = undefined;
         this.#source = source;
-        this.loaded = scene;
+        this.loaded = raw;
+        this.#staged = stage;
         this.variant = variant;
         adopt();
         if (warning) reportWarning(this.#events, warning);
         this.#camera.begin(camera, bounds);
       },
     });
+    if (this.stage !== stage) await this.#restage();
     return scene;
   }
 

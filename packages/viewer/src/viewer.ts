@@ -1,7 +1,7 @@
 import type { PathTracer, PickResult } from '@glanz/renderer';
 import type { Camera, Scene } from '@glanz/scene';
 import { checkToneMapOptions, type ToneMap } from '@glanz/tonemap';
-import { checkAlive, checkedMode, checkedOption, checkedSetting, checkSettings, sceneOf } from './checks';
+import { checkAlive, checkedMode, checkedOption, checkedSetting, checkedStage, checkSettings, sceneOf } from './checks';
 import type { AnimationPlayer } from './animation-player';
 import type { ControlOptions } from './controls';
 import { isAbort } from './aborts';
@@ -12,6 +12,7 @@ import { engineSettings, previewOptions } from './engine-settings';
 import { ViewerError } from './errors';
 import type { ViewerEvents, ViewerState } from './events';
 import { imageSize } from './image-size';
+import type { GroundOptions } from './ground';
 import type { EnvironmentSource, ModelSource } from './load';
 import type { MaterialEdit } from './material-colors';
 import type { BlobOptions, LoadOptions, ViewerOptions } from './options';
@@ -270,6 +271,33 @@ export class Viewer {
     if (checkedOption('background', background) === this.#engine.settings.background) return;
     this.#engine.settings.background = background;
     this.#inBackground(this.#engine.edit('background', (tracer) => tracer.setBackground(background)));
+  }
+
+  /** See {@link ViewerOptions.modelTransform}. */
+  get modelTransform(): ArrayLike<number> | undefined {
+    return this.#model.stage.transform;
+  }
+
+  set modelTransform(modelTransform: ArrayLike<number> | undefined) {
+    this.#inBackground(this.#model.setStage({ transform: checkedStage({ modelTransform }).transform }));
+  }
+
+  /** See {@link ViewerOptions.ground}. */
+  get ground(): GroundOptions | undefined {
+    return this.#model.stage.ground;
+  }
+
+  set ground(ground: GroundOptions | undefined) {
+    this.#inBackground(this.#model.setStage({ ground: checkedStage({ ground }).ground }));
+  }
+
+  /** See {@link ViewerOptions.credentials}. */
+  get credentials(): RequestCredentials | undefined {
+    return this.#model.credentials;
+  }
+
+  set credentials(credentials: RequestCredentials | undefined) {
+    this.#model.credentials = this.#environment.credentials = credentials;
   }
 
   /** See {@link ViewerOptions.exposure}. */

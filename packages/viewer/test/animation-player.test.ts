@@ -22,6 +22,8 @@ function player(duration = 2) {
       source: 'model.glb',
       scene: undefined as never,
       decoders: undefined,
+      credentials: undefined,
+      place: () => undefined,
       edit: async (change) => change(undefined as never),
       wake: () => heard.push('wake'),
       emit: (type, { name, ...rest }) => heard.push([type, name, ...Object.values(rest)].join(' ')),

@@ -2,4 +2,5 @@ export { checkAccessibility } from './accessibility';
 export { serveApp, servePage, watch, type Served } from './page';
 export { photograph, pixelsOf, type Pixels } from './pixels';
 export { glb, hdr, quads, triangle, type Quad } from './files';
+export { animatedQuads } from './animated';
 export { injectFaults, type GpuFaults } from './faults';

@@ -24,6 +24,14 @@ Object.assign(window, {
       'device-restored',
       'poster-dismissed',
       'variant-applied',
+      'play',
+      'pause',
+      'loop',
+      'finished',
+      'preload',
+      'model-visibility',
+      'environment-change',
+      'render-scale',
     ] as const)
       element.addEventListener(
         type,

@@ -10,7 +10,7 @@ export { received as receivedScene, type SentScene } from './protocol';
 /** Options for a load in a worker. */
 export interface WorkerLoad extends Pick<
   LoadGltfOptions,
-  'signal' | 'onProgress' | 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits' | 'baseUrl'
+  'signal' | 'onProgress' | 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits' | 'baseUrl' | 'credentials'
 > {
   /** As for `loadGltf`, but a list; for worker files that have a KTX2 decoder. */
   readonly compressedFormats?: readonly CompressedFormat[] | undefined;
@@ -108,8 +108,8 @@ export class GltfWorker {
    * @throws {GltfError} As `loadGltf`, and `gltf/worker` where a worker cannot be started.
    */
   load(input: GltfInput, options: WorkerLoad = {}): Promise<Scene> {
-    const { signal, onProgress, transfer, baseUrl, allowEmpty, scene, animation, time, limits, compressedFormats } =
-      options;
+    const { signal, onProgress, transfer, baseUrl, allowEmpty, scene, animation, time, limits } = options;
+    const { compressedFormats, credentials } = options;
     return new Promise((resolve, reject) => {
       signal?.throwIfAborted();
       if (this.#destroyed) throw new GltfError('gltf/worker', 'This GltfWorker has been destroyed: create another.');
@@ -120,6 +120,7 @@ export class GltfWorker {
         time,
         limits,
         compressedFormats,
+        credentials,
         ...(baseUrl === undefined ? {} : { baseUrl: new URL(baseUrl, location.href).href }),
       };
       const request: LoadRequest = {

@@ -7,6 +7,7 @@ import type { GltfInput } from '../source';
 export type SentOptions = Pick<GltfOptions, 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits'> & {
   readonly baseUrl?: string;
   readonly compressedFormats?: readonly CompressedFormat[] | undefined;
+  readonly credentials?: RequestCredentials | undefined;
 };
 
 /** Message to a worker: one load. */

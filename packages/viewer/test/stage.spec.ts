@@ -1,0 +1,137 @@
+import { fileURLToPath } from 'node:url';
+import { quads, servePage, watch, type Served } from '@glanz/browser';
+import { expect, test, type Page } from '@playwright/test';
+import type { ViewerOptions } from '@glanz/viewer';
+import { done, heard, model, open, shot } from './open';
+
+let served: Served;
+test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.afterAll(() => served.close());
+test.use({ viewport: { width: 640, height: 480 } });
+
+let complaints: string[] = [];
+test.beforeEach(({ page }) => void (complaints = watch(page, served.origin)));
+test.afterEach(() => expect(complaints).toEqual([]));
+
+/** Turned by half a turn about +Y. */
+const TURNED = [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1];
+
+test('modelTransform places the model, at once and with the next load, and lights move with it', async ({ page }) => {
+  await open(page, served.origin);
+  const sides = async () => {
+    await done(page);
+    const { cells } = await shot(page);
+    return [cells[3]!, cells[5]!].map(([red, green]) => (red! > 2 * green! ? 'red' : green! > 2 * red! ? 'green' : ''));
+  };
+  expect(await sides()).toEqual(['red', 'green']);
+  await page.evaluate((transform) => void (window.viewer.modelTransform = transform), TURNED);
+  await expect.poll(sides).toEqual(['green', 'red']);
+  expect(await page.evaluate(() => window.viewer.scene!.instances[0]!.transform[12])).toBeCloseTo(1.2, 6);
+  // The loader's scene is placed, too.
+  const [placed, back] = await page.evaluate(async (base64) => {
+    const { viewer } = window;
+    const scene = await viewer.load(window.file(base64, 'model.glb'));
+    const at = Array.from(scene.instances[0]!.transform).slice(12, 15);
+    viewer.modelTransform = undefined;
+    return [at, viewer.modelTransform];
+  }, model.toString('base64'));
+  expect(placed![0]).toBeCloseTo(1.2, 6);
+  expect(back).toBeUndefined();
+  await expect.poll(sides).toEqual(['red', 'green']);
+  const code = await page.evaluate(() => {
+    try {
+      window.viewer.modelTransform = new Array<number>(16).fill(0);
+      return undefined;
+    } catch (error) {
+      return (error as { code: string }).code;
+    }
+  });
+  expect(code).toBe('viewer/option');
+});
+
+// A board that stands, seen from above its front. A black one gives the ground no light that would brighten its shadow.
+const board = (colour: readonly [number, number, number]) => quads([{ name: 'board', colour }]);
+const [c, s] = [Math.cos(0.5), Math.sin(0.5)];
+const above: ViewerOptions['camera'] = {
+  type: 'perspective',
+  name: 'above',
+  transform: [1, 0, 0, 0, 0, c, -s, 0, 0, s, c, 0, 0, 6 * s - 0.6, 6 * c, 1],
+  yfov: 0.6,
+  aspect: 1.6,
+};
+
+/** Mean of the film's red and alpha in front of the board's foot: linear, premultiplied. */
+const foot = (page: Page) =>
+  page.evaluate(async () => {
+    const { viewer } = window;
+    const tracer = viewer.tracer!;
+    const at = viewer.project([0, -1, 0.3])!;
+    const film = await tracer.read('beauty');
+    const sum = { red: 0, alpha: 0 };
+    const [x, y] = [Math.round(at.x * tracer.width), Math.round(at.y * tracer.height)];
+    for (let row = y - 2; row < y + 2; row++)
+      for (let column = x - 6; column < x + 6; column++) {
+        const pixel = 4 * (row * tracer.width + column);
+        sum.red += film[pixel]! / 48;
+        sum.alpha += film[pixel + 3]! / 48;
+      }
+    return sum;
+  });
+
+test('a ground catches shadows as strong as asked for, at the foot of the model, and is not framed', async ({
+  page,
+}) => {
+  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 16, pixelRatio: 0.4 };
+  await open(page, served.origin, options, board([0, 0, 0]));
+  expect((await foot(page)).alpha).toBe(0);
+  const { instances } = await page.evaluate(() => ({ instances: window.viewer.scene!.instances.length }));
+  expect(instances).toBe(1);
+
+  // Another tracer brings it; after that it changes by edits.
+  await page.evaluate(() => void (window.viewer.ground = {}));
+  await expect.poll(() => page.evaluate(() => window.viewer.scene!.instances.length)).toBe(2);
+  await done(page);
+  const full = await foot(page);
+  expect(full.alpha).toBeGreaterThan(0.15);
+  await page.evaluate(() => void (window.viewer.ground = { shadow: 0.5 }));
+  await expect
+    .poll(async () => {
+      await done(page);
+      return (await foot(page)).alpha / full.alpha;
+    })
+    .toBeCloseTo(0.5, 1);
+  await page.evaluate(() => void (window.viewer.ground = undefined));
+  await expect
+    .poll(async () => {
+      await done(page);
+      return (await foot(page)).alpha;
+    })
+    .toBe(0);
+
+  // It lies beneath the model, which alone is framed.
+  const [ground, before, after] = await page.evaluate(async () => {
+    const { viewer } = window;
+    viewer.frame({ immediate: true });
+    const without = viewer.orbit!.radius;
+    viewer.ground = {};
+    await viewer.edit(() => undefined);
+    viewer.frame({ immediate: true });
+    return [Array.from(viewer.scene!.instances[1]!.transform), without, viewer.orbit!.radius] as const;
+  });
+  expect(ground[13]).toBeCloseTo(-1, 2);
+  expect(after).toBeCloseTo(before, 6);
+  expect(await heard(page, 'error')).toEqual([]);
+});
+
+test('a ground of a load reflects the model on request', async ({ page }) => {
+  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 16, pixelRatio: 0.4, ground: {} };
+  await open(page, served.origin, options, board([0.9, 0.02, 0.02]));
+  const matt = await foot(page);
+  await page.evaluate(() => void (window.viewer.ground = { reflection: 1 }));
+  await expect
+    .poll(async () => {
+      await done(page);
+      return (await foot(page)).red;
+    })
+    .toBeGreaterThan(matt.red + 0.01);
+});
