@@ -33,6 +33,8 @@ const LATER = {
   './material-colors': 'glanz-viewer.colors.min.js',
   './animation-player': 'glanz-viewer.animation.min.js',
   './stage': 'glanz-viewer.stage.min.js',
+  './ldr-environment': 'glanz-viewer.ldr.min.js',
+  './prompt': 'glanz-viewer.prompt.min.js',
   './gpu-trees': 'glanz-viewer.gpu-trees.min.js',
 };
 
@@ -42,6 +44,8 @@ const SOURCES = {
   './material-colors': './src/material-colors',
   './animation-player': './src/animation-player',
   './stage': './src/stage',
+  './ldr-environment': './src/ldr-environment',
+  './prompt': '../element/src/prompt',
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
 };
 
@@ -123,7 +127,10 @@ const beside = (files) => ({
   name: 'beside',
   setup(context) {
     context.onResolve(
-      { filter: /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|gpu-trees)$)/ },
+      {
+        filter:
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|prompt|gpu-trees)$)/,
+      },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );
     context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) =>

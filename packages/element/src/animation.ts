@@ -47,7 +47,8 @@ export class ElementAnimation {
   }
 
   get duration(): number {
-    const name = this.#player?.name ?? this.#host.name();
+    if (this.#player?.name !== undefined) return this.#player.duration;
+    const name = this.#host.name();
     return (this.#available.find((one) => one.name === name) ?? this.#available[0])?.duration ?? 0;
   }
 

@@ -30,6 +30,22 @@ export interface GlanzViewerEventMap {
   'device-restored': CustomEvent<ViewerEvents['device-restored']>;
   /** The poster went. */
   'poster-dismissed': CustomEvent<undefined>;
+  /** The files of the model have been read; it is prepared for the GPU now. */
+  preload: CustomEvent<undefined>;
+  /** The model is seen, without a poster before it, or it is not seen any more. */
+  'model-visibility': CustomEvent<{ readonly visible: boolean }>;
+  /** Another environment lights the model, or the same one another model. */
+  'environment-change': CustomEvent<undefined>;
+  /**
+   * Frames have another size: smaller ones while the view moves. `reportedDpr`: pixels of the screen per CSS pixel;
+   * `renderedDpr`: those of the frame.
+   */
+  'render-scale': CustomEvent<{
+    readonly reportedDpr: number;
+    readonly renderedDpr: number;
+    readonly pixelWidth: number;
+    readonly pixelHeight: number;
+  }>;
   /** An animation plays from now on. */
   play: CustomEvent<ViewerEvents['play']>;
   /** The animation has been paused. */

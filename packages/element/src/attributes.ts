@@ -40,6 +40,39 @@ export const ATTRIBUTES = {
   /** With `camera-controls`: the camera does not zoom. */
   'disable-zoom': 'flag',
   /**
+   * With `camera-controls`: factor of how far a movement of the pointer or a key orbits.
+   * @defaultValue 1
+   */
+  'orbit-sensitivity': 'number',
+  /**
+   * With `camera-controls`: the same for panning.
+   * @defaultValue 1
+   */
+  'pan-sensitivity': 'number',
+  /**
+   * With `camera-controls`: the same for zooming.
+   * @defaultValue 1
+   */
+  'zoom-sensitivity': 'number',
+  /**
+   * With `camera-controls`: whether a hand shows that the model can be turned, once, where the user does nothing for a
+   * while. Not shown to users who ask for less motion.
+   * @values auto, none
+   * @defaultValue none
+   */
+  'interaction-prompt': 'text',
+  /**
+   * Milliseconds after the load, without any input, before the prompt is shown.
+   * @defaultValue 3000
+   */
+  'interaction-prompt-threshold': 'number',
+  /**
+   * How the prompt looks: a hand that moves to and fro, or one that stands still.
+   * @values wiggle, basic
+   * @defaultValue wiggle
+   */
+  'interaction-prompt-style': 'text',
+  /**
    * CSS `touch-action` of the canvas while `camera-controls` is set.
    * @defaultValue pan-y
    */
@@ -87,7 +120,7 @@ export const ATTRIBUTES = {
    */
   'rotation-per-second': 'text',
   /**
-   * Light: address of a .hdr or .exr, `neutral` (a studio), or `auto`: the model's own, or else the studio.
+   * Light: address of a .hdr or .exr, or of a .jpg, .png or .webp (radiance up to 1), `neutral` (a studio), or `auto`: the model's own, or else the studio.
    * @defaultValue auto
    */
   'environment-image': 'text',
@@ -102,7 +135,7 @@ export const ATTRIBUTES = {
    */
   'environment-rotation': 'text',
   /**
-   * Address of a .hdr or .exr that lights the model and is visible behind it. Without it the background is transparent.
+   * Address of an environment that lights the model and is visible behind it. Without it the background is transparent.
    */
   'skybox-image': 'text',
   /**

@@ -20,6 +20,7 @@ import { denoiseBy } from './denoise-module';
 import { ElementError } from './errors';
 import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
 import { placementOf } from './placement';
+import { PromptTimer } from './prompt-timer';
 import { adoptProperties, reflectAttributes } from './reflect';
 import { fillShadow, type Shadow } from './shadow';
 import { angle } from './units';
@@ -81,6 +82,13 @@ function makeClass(): GlanzViewerConstructor {
       autoplay: () => this.hasAttribute('autoplay') && !matchMedia('(prefers-reduced-motion: reduce)').matches,
       fail: (error) => this.#fail(error),
     });
+    readonly #prompt = new PromptTimer(this);
+    /** Whether the model is seen, as it was announced. */
+    #modelVisible = false;
+    /** Whether the files of the model that is loading have been read. */
+    #preloaded = false;
+    /** Pixels of the frame before, per CSS pixel. */
+    #renderScale = 0;
     /** Texts that their attributes do not take, which have been reported. */
     readonly #faults = new Map<AttributeName, string>();
 
@@ -190,7 +198,10 @@ function makeClass(): GlanzViewerConstructor {
       else if (name === 'variant-name') this.#setVariant(viewer);
       else if (LIGHT.has(name)) {
         viewer.background = this.#background;
-        viewer.setEnvironment(this.#environment).catch((error: unknown) => this.#fail(error, 'warning'));
+        viewer.setEnvironment(this.#environment).then(
+          () => this.#emit('environment-change', undefined),
+          (error: unknown) => this.#fail(error, 'warning'),
+        );
       } else if (VIEW.has(name)) {
         if (name === 'field-of-view' && viewer.scene)
           this.#attempt(
@@ -258,11 +269,13 @@ function makeClass(): GlanzViewerConstructor {
       this.#revealed = true;
       this.#shadow?.poster.classList.add('gone');
       this.#emit('poster-dismissed', undefined);
+      this.#showModel();
     }
 
     showPoster(): void {
       this.#revealed = false;
       this.#shadow?.poster.classList.remove('gone');
+      this.#showModel();
     }
 
     queryHotspot(slot: string): HotspotView | undefined {
@@ -380,6 +393,7 @@ function makeClass(): GlanzViewerConstructor {
 
     #stop(): void {
       clearTimeout(this.#speaking);
+      this.#prompt.stop();
       this.#viewer?.destroy();
       this.#viewer = undefined;
       this.#loaded = false;
@@ -415,6 +429,9 @@ function makeClass(): GlanzViewerConstructor {
         pan: !this.hasAttribute('disable-pan'),
         zoom: !this.hasAttribute('disable-zoom'),
         focus: !this.hasAttribute('disable-tap'),
+        orbitSensitivity: this.#number('orbit-sensitivity') ?? 1,
+        panSensitivity: this.#number('pan-sensitivity') ?? 1,
+        zoomSensitivity: this.#number('zoom-sensitivity') ?? 1,
       };
       // Not for nothing: a drag that is under way would end.
       if (JSON.stringify(controls) !== JSON.stringify(viewer.controls)) viewer.controls = controls;
@@ -443,6 +460,9 @@ function makeClass(): GlanzViewerConstructor {
         progress.classList.toggle('gone', !message.hidden);
         bar.style.transform = `scaleX(${detail.total.toFixed(3)})`;
         this.#emit('progress', { ...detail, totalProgress: detail.total });
+        if (detail.stage !== 'bvh' || this.#preloaded) return;
+        this.#preloaded = true;
+        this.#emit('preload', undefined);
       });
       viewer.on('load', (detail) => {
         this.#loaded = true;
@@ -454,6 +474,9 @@ function makeClass(): GlanzViewerConstructor {
         this.#speak(`${this.#name} is there.`);
         this.#emit('load', detail);
         this.#animation.begin(detail.scene.animations);
+        this.#emit('environment-change', undefined);
+        this.#showModel();
+        this.#prompt.start();
       });
       viewer.on('error', (detail) => {
         alert(detail.message);
@@ -474,11 +497,27 @@ function makeClass(): GlanzViewerConstructor {
         clearTimeout(this.#speaking);
         this.#speaking = setTimeout(() => this.#speak(`${this.#name}, seen ${describeView(detail.orbit)}.`), SPEAK_MS);
       });
-      viewer.on('frame', ({ preview }) => {
+      viewer.on('frame', ({ preview, width, height }) => {
+        this.#scaled(width, height);
         this.#hotspots?.update(viewer);
         if (!this.#hasPoster || (!preview && viewer.sampleCount >= (this.#number('poster-samples') ?? POSTER_SAMPLES)))
           this.#reveal();
       });
+    }
+
+    /** Announces whether the model is seen. */
+    #showModel(): void {
+      const visible = this.#loaded && this.#revealed;
+      if (visible !== this.#modelVisible) this.#emit('model-visibility', { visible: (this.#modelVisible = visible) });
+    }
+
+    /** Announces how large the frames are. */
+    #scaled(width: number, height: number): void {
+      const renderedDpr = width / Math.max(1, this.clientWidth);
+      if (renderedDpr === this.#renderScale) return;
+      this.#renderScale = renderedDpr;
+      const reportedDpr = window.devicePixelRatio;
+      this.#emit('render-scale', { reportedDpr, renderedDpr, pixelWidth: width, pixelHeight: height });
     }
 
     /** Dismisses the poster, unless the page does. */
@@ -527,6 +566,8 @@ function makeClass(): GlanzViewerConstructor {
 
     async #loadSource(viewer: Viewer, source: ModelSource): Promise<void> {
       this.#loaded = false;
+      this.#preloaded = false;
+      this.#showModel();
       if (this.#shadow) this.#shadow.message.hidden = true;
       this.#speak(`${this.#name} is loading.`);
       viewer.orbitLimits = {};

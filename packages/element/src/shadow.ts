@@ -59,6 +59,7 @@ function slot(name: string, ...fallback: Node[]): HTMLSlotElement {
  * @csspart canvas - The canvas that shows the model.
  * @csspart poster - The box of the poster.
  * @csspart progress-bar - The bar that shows how far the load is.
+ * @csspart prompt - The hand that `interaction-prompt` shows.
  * @csspart message - The line that reports an error.
  * @cssprop --poster-color - Background of the poster.
  * @cssprop --progress-bar-color - Colour of the bar.

@@ -62,11 +62,16 @@ test('autoplay plays, animation-name poses, and script pauses, seeks and plays a
   const state = () =>
     page.evaluate(() => {
       const { paused, duration, currentTime, availableAnimations } = document.querySelector('glanz-viewer')!;
-      return { paused, duration, inside: currentTime >= 0 && currentTime <= duration, availableAnimations };
+      return {
+        paused,
+        duration: Math.round(duration * 1e6) / 1e6,
+        inside: currentTime >= 0 && currentTime <= duration,
+        availableAnimations,
+      };
     });
   expect(await state()).toEqual({
     paused: false,
-    duration: Math.fround(0.2),
+    duration: 0.2,
     inside: true,
     availableAnimations: ['swap', 'away'],
   });
@@ -138,4 +143,43 @@ test('orientation, scale and a ground follow their attributes; the ground is not
       code: 'element/attribute',
     });
   expect(await page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.modelTransform)).toBeUndefined();
+});
+
+test('sensitivities scale the controls, the prompt shows once and goes at the first input, and events tell of the view', async ({
+  page,
+}) => {
+  await open(page, {
+    src: 'still.glb',
+    'camera-controls': '',
+    'orbit-sensitivity': '3',
+    'interpolation-decay': '0',
+    'interaction-prompt': 'auto',
+    'interaction-prompt-threshold': '50',
+  });
+  const prompt = page.locator('glanz-viewer').locator('.prompt');
+  await expect(prompt).toBeVisible();
+  await expect(prompt).toHaveAttribute('aria-hidden', 'true');
+  await done(page);
+  expect(await events(page, 'preload', 'load', 'environment-change', 'model-visibility')).toEqual([
+    'preload',
+    'load',
+    'environment-change',
+    'model-visibility',
+  ]);
+  // A key turns by 7.5 degrees.
+  await page.keyboard.press('Tab');
+  await page.keyboard.press('ArrowRight');
+  await expect(prompt).toHaveCount(0);
+  const theta = await page.evaluate(() => document.querySelector('glanz-viewer')!.getCameraOrbit()!.theta);
+  expect(theta).toBeCloseTo((3 * Math.PI) / 24, 6);
+  await done(page);
+  const scales = await page.evaluate(() =>
+    window.heard.filter(({ type }) => type === 'render-scale').map(({ detail }) => detail['renderedDpr'] as number),
+  );
+  expect(Math.min(...scales)).toBeLessThan(0.4);
+  expect(scales.at(-1)).toBeCloseTo(0.4, 6);
+  await page.evaluate(() => document.querySelector('glanz-viewer')!.showPoster());
+  expect(await page.evaluate(() => window.heard.findLast(({ type }) => type === 'model-visibility')!.detail)).toEqual({
+    visible: false,
+  });
 });

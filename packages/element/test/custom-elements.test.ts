@@ -40,7 +40,7 @@ test('everything in the manifest has a description', () => {
 });
 
 test('slots, parts and CSS properties are those of the shadow tree', () => {
-  const shadow = read('src/shadow.ts').replace(/\/\*\*[\s\S]*?\*\//g, '');
+  const shadow = `${read('src/shadow.ts')}${read('src/prompt.ts')}`.replace(/\/\*\*[\s\S]*?\*\//g, '');
   const found = (pattern: RegExp) => [...new Set([...shadow.matchAll(pattern)].map(([, name]) => name))].sort();
   expect(element.cssProperties.map(({ name }) => name).sort()).toEqual(found(/var\((--[\w-]+)/g));
   expect(element.cssParts.map(({ name }) => name).sort()).toEqual(found(/part\.add\('([\w-]+)'\)/g));

@@ -35,6 +35,10 @@ export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src
   readonly onConverged?: (detail: Detail<'converged'>) => void;
   readonly onCameraChange?: (detail: Detail<'camera-change'>) => void;
   readonly onVariantApplied?: (detail: Detail<'variant-applied'>) => void;
+  readonly onPreload?: () => void;
+  readonly onModelVisibility?: (detail: Detail<'model-visibility'>) => void;
+  readonly onEnvironmentChange?: () => void;
+  readonly onRenderScale?: (detail: Detail<'render-scale'>) => void;
   readonly onPlay?: (detail: Detail<'play'>) => void;
   readonly onPause?: (detail: Detail<'pause'>) => void;
   readonly onLoop?: (detail: Detail<'loop'>) => void;
@@ -53,6 +57,10 @@ const EVENTS = {
   onConverged: 'converged',
   onCameraChange: 'camera-change',
   onVariantApplied: 'variant-applied',
+  onPreload: 'preload',
+  onModelVisibility: 'model-visibility',
+  onEnvironmentChange: 'environment-change',
+  onRenderScale: 'render-scale',
   onPlay: 'play',
   onPause: 'pause',
   onLoop: 'loop',

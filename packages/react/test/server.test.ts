@@ -21,6 +21,12 @@ describe('on a server', () => {
           ktx2Transcoder: '/basis.js',
           denoise: '/denoise.js',
           preview: 'raw',
+          animationName: 'walk',
+          autoplay: true,
+          orientation: '0 0 90deg',
+          shadowIntensity: 0.5,
+          withCredentials: false,
+          onPlay: () => undefined,
           className: 'hero',
           style: { height: 400 },
           onLoad: () => undefined,
@@ -41,11 +47,16 @@ describe('on a server', () => {
       'ktx2-transcoder="/basis.js"',
       'denoise="/denoise.js"',
       'preview="raw"',
+      'animation-name="walk"',
+      'autoplay=""',
+      'orientation="0 0 90deg"',
+      'shadow-intensity="0.5"',
       'class="hero"',
       'style="height:400px"',
     ])
       expect(tag).toContain(attribute);
-    for (const absent of ['auto-rotate', 'samples', 'onLoad', 'on-load', 'suppress']) expect(tag).not.toContain(absent);
+    for (const absent of ['auto-rotate', 'samples', 'with-credentials', 'onPlay', 'onLoad', 'on-load', 'suppress'])
+      expect(tag).not.toContain(absent);
     expect(html).toContain('<img slot="poster" src="chair.webp" alt=""/>');
   });
 

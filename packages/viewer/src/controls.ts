@@ -24,6 +24,25 @@ export interface ControlOptions {
   readonly zoom?: boolean;
   /** Double click, double tap, F; `pointer` leaves the key alone. Default true. */
   readonly focus?: boolean | 'pointer';
+  /** Factor of how far a movement of the pointer or a key orbits, above 0. Default 1. */
+  readonly orbitSensitivity?: number;
+  /** The same for panning. Default 1. */
+  readonly panSensitivity?: number;
+  /** The same for zooming. Default 1. */
+  readonly zoomSensitivity?: number;
+}
+
+/** Commands that movements are scaled for. */
+function sensitive(
+  { orbit, pan, zoom, ...others }: CameraCommands,
+  { orbitSensitivity: o = 1, panSensitivity: p = 1, zoomSensitivity: z = 1 }: ControlOptions,
+): CameraCommands {
+  return {
+    ...others,
+    orbit: (yaw, pitch) => orbit(yaw * o, pitch * o),
+    pan: (right, up) => pan(right * p, up * p),
+    zoom: (factor) => zoom(factor ** z),
+  };
 }
 
 /** Radians of orbit for a drag over the whole height. */
@@ -55,9 +74,10 @@ const distance = (a: Point, b: Point) => Math.hypot(a.x - b.x, a.y - b.y);
  */
 export function controlCamera(
   element: HTMLElement,
-  commands: CameraCommands,
+  commanded: CameraCommands,
   options: ControlOptions = {},
 ): () => void {
+  const commands = sensitive(commanded, options);
   const { orbit = true, pan: panning = true, zoom = true, focus = true } = options;
   const listeners = new AbortController();
   const { signal } = listeners;

@@ -11,7 +11,7 @@ export type ModelSource = string | URL | Blob | readonly File[] | FileList | Rea
 
 /**
  * Environment. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or
- * a file of a Radiance HDR or OpenEXR image; or data.
+ * a file of a Radiance HDR or OpenEXR image, or of a JPEG, PNG or WebP image, whose radiance is at most 1; or data.
  */
 export type EnvironmentSource = 'scene' | 'studio' | 'none' | URL | Blob | Environment | (string & {});
 
@@ -158,6 +158,9 @@ export async function loadEnvironment(
       `An environment is a name, an address, a file, or latlong or constant data, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
     );
   }
+  // JPEG, PNG and WebP; an environment of high dynamic range begins with "#?" or 76 2f.
+  if (/^(ffd8|8950|5249)/.test([...bytes.subarray(0, 2)].map((byte) => byte.toString(16)).join('')))
+    return (await import('./ldr-environment')).ldrEnvironment(bytes);
   const { decodeEnvironment } = await import('@glanz/image/environment');
   signal?.throwIfAborted();
   const { width, height, data } = decodeEnvironment(bytes);

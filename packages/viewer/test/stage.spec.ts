@@ -135,3 +135,28 @@ test('a ground of a load reflects the model on request', async ({ page }) => {
     })
     .toBeGreaterThan(matt.red + 0.01);
 });
+
+test('an environment of 8 bits is read as sRGB; what only begins like one is refused', async ({ page }) => {
+  await open(page, served.origin);
+  const result = await page.evaluate(async () => {
+    const { viewer } = window;
+    const canvas = new OffscreenCanvas(4, 2);
+    const context = canvas.getContext('2d')!;
+    context.fillStyle = 'rgb(188 0 255)';
+    context.fillRect(0, 0, 4, 2);
+    const read = async (type: string) => {
+      await viewer.setEnvironment(await canvas.convertToBlob({ type, quality: 1 }));
+      const environment = viewer.scene!.environment as { width: number; height: number; data: Float32Array };
+      return [environment.width, environment.height, ...environment.data.subarray(9, 12)];
+    };
+    const broken = await viewer
+      .setEnvironment(new Blob([Uint8Array.of(0xff, 0xd8, 1, 2)]))
+      .catch((error: { code: string }) => error.code);
+    return { png: await read('image/png'), jpeg: await read('image/jpeg'), broken };
+  });
+  expect(result.broken).toBe('viewer/environment');
+  // 188 is 0.5029 of linear light (IEC 61966-2-1).
+  expect(result.png.slice(0, 2)).toEqual([4, 2]);
+  [0.5029, 0, 1].forEach((value, k) => expect(result.png[2 + k]).toBeCloseTo(value, 3));
+  [0.5029, 0, 1].forEach((value, k) => expect(result.jpeg[2 + k]).toBeCloseTo(value, 1));
+});
