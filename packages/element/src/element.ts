@@ -394,6 +394,7 @@ function makeClass(): GlanzViewerConstructor {
     #stop(): void {
       clearTimeout(this.#speaking);
       this.#prompt.stop();
+      this.#animation.begin();
       this.#viewer?.destroy();
       this.#viewer = undefined;
       this.#loaded = false;
@@ -500,7 +501,12 @@ function makeClass(): GlanzViewerConstructor {
       viewer.on('frame', ({ preview, width, height }) => {
         this.#scaled(width, height);
         this.#hotspots?.update(viewer);
-        if (!this.#hasPoster || (!preview && viewer.sampleCount >= (this.#number('poster-samples') ?? POSTER_SAMPLES)))
+        // While an animation plays no image gets more samples.
+        if (
+          !this.#hasPoster ||
+          !this.paused ||
+          (!preview && viewer.sampleCount >= (this.#number('poster-samples') ?? POSTER_SAMPLES))
+        )
           this.#reveal();
       });
     }

@@ -19,6 +19,8 @@ interface Checks {
   readonly checkedOption: typeof checkedOption;
   readonly checkedSetting: typeof checkedSetting;
   readonly ViewerError: typeof ViewerError;
+  /** Whether an animation plays. */
+  readonly animates: () => boolean;
 }
 
 /** What is read of a viewer. */
@@ -93,7 +95,8 @@ async function screenImage(
     if (size && (tracer.width !== size[0] || tracer.height !== size[1])) return undefined;
     return tracer.samples >= samples || (usual && viewer.state === 'done') ? tracer : undefined;
   };
-  const idle = () => viewer.state === 'paused' || viewer.state === 'hidden' || viewer.autoRotate !== 0;
+  const idle = () =>
+    viewer.state === 'paused' || viewer.state === 'hidden' || viewer.autoRotate !== 0 || checks.animates();
   const ready = whole();
   if (ready || size || samples > viewer.samples || idle()) return ready;
   const listening = new AbortController();
@@ -122,6 +125,7 @@ async function screenImage(
         options,
       );
       viewer.on('converged', () => queueMicrotask(look), options);
+      viewer.on('play', look, options);
       viewer.on(
         'state',
         ({ state }) => {

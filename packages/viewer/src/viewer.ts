@@ -65,7 +65,7 @@ export class Viewer {
         const moved = this.#camera.step(seconds);
         return this.#model.player?.step(seconds) || moved;
       },
-      moving: () => this.#camera.moving || this.#model.player?.paused === false,
+      moving: () => this.#camera.moving || this.#animates,
       camera: (aspect) => this.#camera.camera(aspect) as Camera,
     }));
     this.denoise = options.denoise;
@@ -227,7 +227,8 @@ export class Viewer {
     sceneOf(this.#engine);
     const { imageBlob } = await import('./save-image');
     checkAlive(this.#engine);
-    return imageBlob(this, this.#engine, options, { checkedOption, checkedSetting, ViewerError });
+    const animates = () => this.#animates;
+    return imageBlob(this, this.#engine, options, { checkedOption, checkedSetting, ViewerError, animates });
   }
 
   /**
@@ -523,6 +524,11 @@ export class Viewer {
     this.#resize.disconnect();
     this.#engine.destroy();
     this.#events.close();
+  }
+
+  /** Whether an animation plays. */
+  get #animates(): boolean {
+    return this.#model.player?.paused === false;
   }
 
   /** Emits an error of work that a setter has started. */

@@ -85,6 +85,8 @@ test('without animations there is nothing to play, and a model that is replaced 
     const { viewer } = window;
     const animation = await viewer.animation();
     animation.play();
+    // Does not wait for an image that will not come.
+    await viewer.toBlob({ samples: 1 });
     const { animations: _, animatedParts: __, ...still } = viewer.scene!;
     await viewer.load(still);
     const code = await viewer.animation().catch((error: { code: string }) => error.code);
