@@ -29,9 +29,11 @@ const BUDGETS = [
   // are built, placed those of the GPU, and read them back for edits.
   { specifier: '@glanz/renderer', limit: 115, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
-  // 14 before it kept samples through the loss of a GPU and checked all that it is given.
-  { specifier: '@glanz/viewer', limit: 19 },
-  { specifier: '@glanz/element', limit: 10 },
+  // 14 before it kept samples through the loss of a GPU and checked all that it is given; 19 before models were placed
+  // on a ground and played; the code for both is loaded later.
+  { specifier: '@glanz/viewer', limit: 20.5 },
+  // 10 before it had properties, methods and events of animations.
+  { specifier: '@glanz/element', limit: 10.5 },
   { specifier: '@glanz/react', limit: 1.5 },
   // The renderer is loaded when the first scene is prepared.
   { specifier: '@glanz/three', limit: 16 },
@@ -41,7 +43,8 @@ const BUDGETS = [
 
 /** Files that pages take as they are: kB, gzipped. */
 // 228 before the renderer chose where hierarchies are built; what builds them on the GPU lies beside the file.
-const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 229 }];
+// 229 before animations, a ground and an interaction prompt, whose code lies beside it too.
+const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 231 }];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 

@@ -20,7 +20,6 @@ import { denoiseBy } from './denoise-module';
 import { ElementError } from './errors';
 import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
 import { placementOf } from './placement';
-import { PromptTimer } from './prompt-timer';
 import { adoptProperties, reflectAttributes } from './reflect';
 import { fillShadow, type Shadow } from './shadow';
 import { angle } from './units';
@@ -82,7 +81,8 @@ function makeClass(): GlanzViewerConstructor {
       autoplay: () => this.hasAttribute('autoplay') && !matchMedia('(prefers-reduced-motion: reduce)').matches,
       fail: (error) => this.#fail(error),
     });
-    readonly #prompt = new PromptTimer(this);
+    /** Ends the prompt. */
+    #prompted: AbortController | undefined;
     /** Whether the model is seen, as it was announced. */
     #modelVisible = false;
     /** Whether the files of the model that is loading have been read. */
@@ -393,7 +393,8 @@ function makeClass(): GlanzViewerConstructor {
 
     #stop(): void {
       clearTimeout(this.#speaking);
-      this.#prompt.stop();
+      this.#prompted?.abort();
+      this.#prompted = undefined;
       this.#animation.begin();
       this.#viewer?.destroy();
       this.#viewer = undefined;
@@ -477,7 +478,7 @@ function makeClass(): GlanzViewerConstructor {
         this.#animation.begin(detail.scene.animations);
         this.#emit('environment-change', undefined);
         this.#showModel();
-        this.#prompt.start();
+        this.#prompt();
       });
       viewer.on('error', (detail) => {
         alert(detail.message);
@@ -515,6 +516,24 @@ function makeClass(): GlanzViewerConstructor {
     #showModel(): void {
       const visible = this.#loaded && this.#revealed;
       if (visible !== this.#modelVisible) this.#emit('model-visibility', { visible: (this.#modelVisible = visible) });
+    }
+
+    /** Shows once, after a while without input, that the model can be moved. */
+    #prompt(): void {
+      if (
+        this.#prompted ||
+        this.getAttribute('interaction-prompt') !== 'auto' ||
+        !this.hasAttribute('camera-controls') ||
+        matchMedia('(prefers-reduced-motion: reduce)').matches
+      )
+        return;
+      const { signal } = (this.#prompted = new AbortController());
+      const wiggles = this.getAttribute('interaction-prompt-style') !== 'basic';
+      const threshold = this.#number('interaction-prompt-threshold') ?? 3000;
+      import('./prompt').then(
+        ({ promptAfter }) => promptAfter(this, threshold, wiggles, signal),
+        () => undefined,
+      );
     }
 
     /** Announces how large the frames are. */

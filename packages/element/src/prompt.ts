@@ -12,8 +12,28 @@ const SVG = 'http://www.w3.org/2000/svg';
 
 let sheet: CSSStyleSheet | undefined;
 
-/** Shows a hand over the element until the first input. @returns What removes it. */
-export function showPrompt(host: HTMLElement, wiggles: boolean): () => void {
+/** Input that ends the prompt, or comes before it. */
+const INPUTS = ['pointerdown', 'wheel', 'keydown'] as const;
+
+/**
+ * Shows a hand over an element where there is no input for a while, until the first input.
+ *
+ * @param signal Ends it, too.
+ */
+export function promptAfter(host: HTMLElement, milliseconds: number, wiggles: boolean, signal: AbortSignal): void {
+  if (signal.aborted) return;
+  const listening = new AbortController();
+  const either = AbortSignal.any([signal, listening.signal]);
+  const timer = setTimeout(() => {
+    const remove = showPrompt(host, wiggles);
+    either.addEventListener('abort', remove);
+  }, milliseconds);
+  either.addEventListener('abort', () => clearTimeout(timer));
+  for (const type of INPUTS) host.addEventListener(type, () => listening.abort(), { passive: true, signal: either });
+}
+
+/** Shows a hand over an element. @returns What removes it. */
+function showPrompt(host: HTMLElement, wiggles: boolean): () => void {
   const root = host.shadowRoot as ShadowRoot;
   if (!sheet) {
     sheet = new CSSStyleSheet();

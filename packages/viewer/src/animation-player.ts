@@ -4,11 +4,24 @@ import { refitBlas } from '@glanz/bvh/refit';
 import { openAnimations, type ScenePoser } from '@glanz/gltf/animation';
 import type { PathTracer } from '@glanz/renderer';
 import type { Scene, SceneAnimation } from '@glanz/scene';
+import { abortError, isAbort, isLoss } from './aborts';
+import type { Emitter } from './emitter';
+import type { Engine } from './engine';
 import { ViewerError } from './errors';
 import type { ViewerEvents } from './events';
 import type { RefitHierarchy } from './hierarchies';
 import { placed, placedLight } from './stage';
-import { gltfSourceOf, meshoptDecoder, type LoadModelOptions, type ModelSource } from './load';
+import {
+  filesOf,
+  isFiles,
+  meshoptDecoder,
+  OTHER,
+  pathOf,
+  sortFiles,
+  type GltfSource,
+  type LoadModelOptions,
+  type ModelSource,
+} from './load';
 
 /** Options for {@link AnimationPlayer.play}. */
 export interface PlayOptions {
@@ -20,11 +33,6 @@ export interface PlayOptions {
 
 /** What an {@link AnimationPlayer} works on. */
 export interface AnimatedModel {
-  /** What the scene was loaded from, and the scene as it was loaded. */
-  readonly source: ModelSource;
-  readonly scene: Scene;
-  readonly decoders: LoadModelOptions['decoders'];
-  readonly credentials: LoadModelOptions['credentials'];
   /** Where the model is placed in the world; undefined: where its file places it. */
   readonly place: () => readonly number[] | undefined;
   /** Applies a change with the next frame; of several that wait, the last one counts. */
@@ -250,14 +258,51 @@ export class AnimationPlayer {
 const notFinite = (name: string, value: unknown) =>
   new ViewerError('viewer/option', `${name} is ${String(value)}; it must be a finite number.`);
 
+/** What the loader of glTF takes of a source; `undefined` for scenes and other formats. */
+function gltfSourceOf(source: ModelSource): GltfSource | undefined {
+  if (typeof source === 'string' || source instanceof URL) return OTHER.test(pathOf(source)) ? undefined : source;
+  if (!(source instanceof Blob || source instanceof Map || isFiles(source))) return undefined;
+  const files = filesOf(source);
+  const { model } = sortFiles(files);
+  return model === undefined || OTHER.test(model) ? undefined : { files, entry: model };
+}
+
+/** What {@link openPlayer} takes. */
+export interface PlayerContext extends Pick<AnimatedModel, 'place'> {
+  readonly source: ModelSource | undefined;
+  readonly scene: Scene | undefined;
+  readonly decoders: LoadModelOptions['decoders'];
+  readonly credentials: LoadModelOptions['credentials'];
+  readonly engine: Pick<Engine, 'edit' | 'wake' | 'refit'>;
+  readonly events: Emitter<ViewerEvents>;
+  /** Whether the scene is still the one that is shown. */
+  readonly isShown: () => boolean;
+  readonly failed: (error: unknown) => void;
+}
+
 /** Opens the animations of a model. @throws {GltfError} as `openAnimations` of `@glanz/gltf/animation`. */
-export async function openPlayer(model: AnimatedModel): Promise<AnimationPlayer> {
-  const source = gltfSourceOf(model.source);
-  if (source === undefined)
+export async function openPlayer(context: PlayerContext): Promise<AnimationPlayer> {
+  const { source, scene, decoders, credentials, engine, events, failed, place } = context;
+  if (!scene?.animations?.length) throw new ViewerError('viewer/animation', 'There is no model with animations.');
+  const file = source && gltfSourceOf(source);
+  if (file === undefined)
     throw new ViewerError('viewer/animation', 'The model was not loaded from a glTF file: it has no animations.');
-  const { credentials, scene } = model;
-  const decoders = { meshopt: meshoptDecoder, ...model.decoders };
-  return new AnimationPlayer(model, await openAnimations(source, scene, { decoders, credentials }));
+  const poser = await openAnimations(file, scene, {
+    decoders: { meshopt: meshoptDecoder, ...decoders },
+    credentials,
+  });
+  if (!context.isShown()) throw abortError('another model was shown');
+  engine.refit(refitting());
+  return new AnimationPlayer(
+    {
+      place,
+      edit: (change) => engine.edit('animation', change),
+      wake: () => engine.wake(),
+      emit: (type, detail) => events.emit(type, detail),
+      failed: (error) => void (isAbort(error) || isLoss(error) || failed(error)),
+    },
+    poser,
+  );
 }
 
 /**

@@ -36,12 +36,13 @@ export interface LoadModelOptions {
 
 const MODEL = /\.(glb|gltf|obj|stl)$/i;
 /** Models that are no glTF. */
-const OTHER = /\.(obj|stl)$/i;
+export const OTHER = /\.(obj|stl)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 
 const isScene = (source: ModelSource): source is Scene =>
   typeof source === 'object' && 'meshes' in source && 'instances' in source;
-const isFiles = (source: unknown): source is readonly File[] | FileList =>
+/** Whether a source is a list of files. */
+export const isFiles = (source: unknown): source is readonly File[] | FileList =>
   typeof source === 'object' &&
   source !== null &&
   Symbol.iterator in source &&
@@ -55,10 +56,11 @@ function addressOf(source: string | URL, code: 'viewer/no-model' | 'viewer/envir
     throw new ViewerError(code, `"${String(source).slice(0, 200)}" is no address that can be fetched.`, { cause });
   }
 }
-const pathOf = (address: string | URL) => String(address).replace(/[?#].*$/, '');
+/** An address without its query. */
+export const pathOf = (address: string | URL) => String(address).replace(/[?#].*$/, '');
 
 /** Files by their paths, of whatever a drop, an input or a program gives. */
-function filesOf(source: Blob | readonly File[] | FileList | ReadonlyMap<string, Blob>): Map<string, Blob> {
+export function filesOf(source: Blob | readonly File[] | FileList | ReadonlyMap<string, Blob>): Map<string, Blob> {
   if (source instanceof Blob) return new Map([[source instanceof File ? source.name : 'model.glb', source]]);
   if (source instanceof Map) return new Map(source as ReadonlyMap<string, Blob>);
   return new Map([...(source as Iterable<File>)].map((file) => [file.webkitRelativePath || file.name, file]));
@@ -184,19 +186,11 @@ async function fetchBytes(
   }
 }
 
-/** What the loader of glTF takes of a source; `undefined` for scenes and other formats. */
-export function gltfSourceOf(source: ModelSource): GltfSource | undefined {
-  if (typeof source === 'string' || source instanceof URL) return OTHER.test(pathOf(source)) ? undefined : source;
-  if (!(source instanceof Blob || source instanceof Map || isFiles(source))) return undefined;
-  const files = filesOf(source);
-  const { model } = sortFiles(files);
-  return model === undefined || OTHER.test(model) ? undefined : { files, entry: model };
-}
-
 /** meshopt's decoder, which models may need. */
 export const meshoptDecoder = async (): Promise<unknown> => (await import('meshoptimizer/decoder')).MeshoptDecoder;
 
-type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; readonly entry: string };
+/** What the loader of glTF takes. */
+export type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; readonly entry: string };
 
 async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<Scene> {
   const { signal, onProgress, decoders, createWorker, compressedFormats, credentials } = options;

@@ -1,6 +1,8 @@
 import type { PathTracer } from '@glanz/renderer';
 import { sceneBounds, type Camera, type Light, type Scene } from '@glanz/scene';
 import { invert, multiply } from 'gl-matrix/esm/mat4.js';
+import type { Engine } from './engine';
+import type { TracerSpec } from './engine-host';
 import { GROUND, withoutGround, type GroundOptions } from './ground';
 import type { Vector } from './orbit-state';
 
@@ -110,15 +112,36 @@ export function staged(scene: Scene, { transform, ground }: Stage): { readonly m
   return { model, shown: isShown(ground) ? withGround(model, ground) : model };
 }
 
-/** Whether a tracer's scene can be brought onto another stage by edits: what has no ground yet needs another tracer. */
-export const canEdit = (scene: Scene, { ground }: Stage): boolean => !isShown(ground) || withoutGround(scene) !== scene;
-
 /** The scene of a tracer with the ground that it has not. */
-export const grounded = (scene: Scene, { ground }: Stage): Scene =>
+const grounded = (scene: Scene, { ground }: Stage): Scene =>
   isShown(ground) && withoutGround(scene) === scene ? withGround(scene, ground) : scene;
 
+/** What {@link restage} needs of a model. */
+export interface Restaging {
+  /** The stage that the tracer's scene is on, and the one that it is to be on, which it is on then. */
+  readonly from: () => Stage;
+  readonly to: () => Stage;
+  /** What makes another tracer of a scene as it was edited. */
+  readonly specify: (former: PathTracer) => TracerSpec;
+}
+
+/** Brings what an engine shows onto another stage: by edits, or by another tracer where a ground is added. */
+export async function restage(
+  engine: Pick<Engine, 'edit' | 'show' | 'tracer'>,
+  { from, to, specify }: Restaging,
+): Promise<void> {
+  let stage: Stage = {};
+  await engine.edit('stage', (tracer) => changeStage(tracer, from(), (stage = to())));
+  const { tracer } = engine;
+  if (!tracer || grounded(tracer.scene, stage) === tracer.scene) return;
+  await engine.show((former) => {
+    const spec = specify(former ?? tracer);
+    return { ...spec, scene: grounded(spec.scene, stage) };
+  });
+}
+
 /** Brings the scene of a tracer from one stage onto another. */
-export async function changeStage(tracer: PathTracer, from: Stage, to: Stage): Promise<void> {
+async function changeStage(tracer: PathTracer, from: Stage, to: Stage): Promise<void> {
   const { scene } = tracer;
   const edits: Promise<void>[] = [];
   const model = withoutGround(scene);

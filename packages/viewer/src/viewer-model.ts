@@ -4,8 +4,7 @@ import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } fro
 import { checkedStage, sceneOf } from './checks';
 import type { Emitter } from './emitter';
 import type { Engine, TracerSpec } from './engine';
-import { abortError, isAbort, isLoss } from './aborts';
-import { ViewerError } from './errors';
+import { isAbort } from './aborts';
 import type { LoadStage, ViewerEvents } from './events';
 import { fitCamera } from './fit-camera';
 import { LatestTask } from './latest-task';
@@ -123,20 +122,19 @@ export class ViewerModel {
   }
 
   async #restage(): Promise<void> {
-    const engine = this.#engine;
-    const { canEdit, changeStage, grounded } = await import('./stage');
-    await engine.edit('stage', (tracer) => {
-      const before = this.#staged;
-      this.#staged = this.stage;
-      return changeStage(tracer, before, this.stage);
-    });
-    const { tracer, loaded } = { tracer: engine.tracer, loaded: this.loaded };
-    if (!tracer || !loaded || canEdit(tracer.scene, this.stage)) return;
-    // Only another tracer has a further instance.
-    const first = { scene: loaded, shown: loaded, camera: tracer.camera, variant: this.variant };
-    await engine.show((former) => {
-      const spec = this.#specify(former ?? tracer, first);
-      return { ...spec, scene: grounded(spec.scene, this.stage) };
+    const { loaded } = this;
+    const { restage } = await import('./stage');
+    await restage(this.#engine, {
+      from: () => this.#staged,
+      to: () => (this.#staged = this.stage),
+      // Only another tracer has a further instance.
+      specify: (former) =>
+        this.#specify(former, {
+          scene: loaded as Scene,
+          shown: former.scene,
+          camera: former.camera,
+          variant: undefined,
+        }),
     });
   }
 
@@ -150,23 +148,18 @@ export class ViewerModel {
 
   async #open(): Promise<AnimationPlayer> {
     const scene = this.loaded;
-    if (!scene?.animations?.length) throw new ViewerError('viewer/animation', 'There is no model with animations.');
-    const engine = this.#engine;
-    const { openPlayer, refitting } = await import('./animation-player');
-    const player = await openPlayer({
-      source: this.#source as ModelSource,
+    const { openPlayer } = await import('./animation-player');
+    return (this.player = await openPlayer({
+      source: this.#source,
       scene,
       decoders: this.#options.decoders,
       credentials: this.credentials,
+      engine: this.#engine,
+      events: this.#events,
+      isShown: () => scene === this.loaded,
       place: () => this.#staged.transform,
-      edit: (change) => engine.edit('animation', change),
-      wake: () => engine.wake(),
-      emit: (type, detail) => this.#events.emit(type, detail),
-      failed: (error) => void (isAbort(error) || isLoss(error) || reportError(this.#events, error)),
-    });
-    if (scene !== this.loaded) throw abortError('another model was shown');
-    engine.refit(refitting());
-    return (this.player = player);
+      failed: (error) => reportError(this.#events, error),
+    }));
   }
 
   /** Aborts a load. */

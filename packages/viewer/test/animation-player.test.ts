@@ -19,10 +19,6 @@ function player(duration = 2) {
   } as unknown as ScenePoser;
   const made = new AnimationPlayer(
     {
-      source: 'model.glb',
-      scene: undefined as never,
-      decoders: undefined,
-      credentials: undefined,
       place: () => undefined,
       edit: async (change) => change(undefined as never),
       wake: () => heard.push('wake'),
