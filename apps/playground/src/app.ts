@@ -3,7 +3,16 @@ import { controlCamera } from '@glanz/viewer/controls';
 import { fitCamera } from '@glanz/viewer/fit-camera';
 import { describeError, isAbort } from './errors';
 import { Environments } from './input/environments';
-import { isSample, linkOfPage, open, sampleTitle, stateFor, type Opened, type OpenedLink } from './input/opening';
+import {
+  isSample,
+  linkOfPage,
+  nameOf,
+  open,
+  sampleTitle,
+  stateFor,
+  type Opened,
+  type OpenedLink,
+} from './input/opening';
 import type { ModelRequest } from './input/load-messages';
 import { SAMPLES } from './input/samples';
 import { wireFiles } from './input/wire-files';
@@ -66,10 +75,14 @@ export class App {
   /**
    * Starts the page.
    *
-   * @param early The model of the address, which is loaded while scripts arrive.
+   * @param early The model of the address, which is loaded while scripts arrive; `problem` says why it is another one.
    * @throws {DeviceError} without WebGPU.
    */
-  static async start(early: { readonly request: ModelRequest; readonly scene: Promise<Scene> }): Promise<void> {
+  static async start(early: {
+    readonly request: ModelRequest;
+    readonly scene: Promise<Scene>;
+    readonly problem?: unknown;
+  }): Promise<void> {
     const app = new App();
     const link = (app.#link = await linkOfPage());
     app.#environments.expect(link?.files?.environment ?? '');
@@ -104,6 +117,7 @@ export class App {
     if (requested && early.request.kind === 'sample' && requested !== early.request.name)
       await app.load({ kind: 'sample', name: requested });
     else await app.load(early.request, early.scene);
+    if (early.problem) app.#fail(early.problem);
     if (link?.note) app.#messages.show({ kind: 'note', text: link.note, code: 'playground/link-file', stays: true });
     keepAddress(
       app.#store,
@@ -220,7 +234,7 @@ export class App {
     try {
       this.#status.prepare(request.kind === 'sample' ? 'make' : 'read');
       const opened: Opened = early
-        ? { scene: await early, request, title, name: request.kind === 'sample' ? request.name : title }
+        ? { scene: await early, request, title, name: nameOf(request) }
         : await open(request, title, {
             signal,
             compressedFormats: await this.#session.compressedFormats(),

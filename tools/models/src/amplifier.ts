@@ -191,7 +191,7 @@ export function createAmplifier(): Scene {
     color: [1, 0.96, 0.9],
   });
   stage.softbox({
-    name: 'Front',
+    name: 'Fill',
     at: [420, 1050, 1250],
     to: [0, 80, 160],
     width: 1100,

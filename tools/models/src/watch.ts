@@ -308,11 +308,11 @@ export function createWatch(): Scene {
   stage.sweep(matte('backdrop', [0.34, 0.36, 0.39]), { front: 500, back: 260, radius: 200, height: 700, width: 1600 });
   stage.softbox({
     name: 'Key',
-    at: [-190, 230, 60],
+    at: [-190, 215, 150],
     to: [0, 34, 0],
-    width: 190,
-    height: 190,
-    radiance: 6,
+    width: 260,
+    height: 220,
+    radiance: 5,
     gradient: 10,
   });
   stage.softbox({
