@@ -47,7 +47,7 @@ const WIDTHS = [360, 768, 1280] as const,
 const LOOKS = WIDTHS.flatMap((width) => SCHEMES.map((scheme) => [width, scheme] as const));
 /**
  * One page of each kind: home, guide, package, reference of an entry and of a package, parameters, results, table, live
- * examples, list, images to compare.
+ * examples, gallery, list, images to compare.
  */
 const KINDS = [
   '/',
@@ -65,6 +65,7 @@ const KINDS = [
   '/guide/viewers',
   '/how/hierarchies',
   '/live',
+  '/gallery',
   '/guide/denoising',
 ];
 

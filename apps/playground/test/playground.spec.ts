@@ -40,6 +40,24 @@ test.afterEach(() => expect(complaints).toEqual([]));
 const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&max-depth=3') =>
   openAt(page, `${origin}/?${query}`);
 
+test('a model of another address is shown; one that is missing is reported, and the push-button is shown', async ({
+  page,
+}) => {
+  const { createCornellBox } = await import('@glanz/models');
+  const { sceneToGlb } = await import('@glanz/models/gltf');
+  const body = Buffer.from(await sceneToGlb(createCornellBox()));
+  await page.route('**/models/box.glb', (route) => route.fulfill({ body }));
+  await open(page, 'model=models/box.glb&environment=none&scale=0.25&samples=2&max-depth=3');
+  expect(await dataOf(page, 'scene')).toBe('box.glb');
+  await finished(page);
+
+  await page.route('**/models/gone.glb', (route) => route.fulfill({ status: 404 }));
+  await open(page, 'model=models/gone.glb&scale=0.25&samples=1&max-depth=2');
+  await expect(errorWith(page, 'playground/model-address')).toContainText('the server answered 404');
+  expect(await dataOf(page, 'sample')).toBe('push-button');
+  complaints = complaints.filter((text) => !text.includes('404'));
+});
+
 test('the Cornell box appears: light above, red left, green right; the saved image is the one on the screen', async ({
   page,
 }) => {

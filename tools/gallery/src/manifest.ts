@@ -77,7 +77,7 @@ export const GALLERY: readonly GalleryImage[] = [
     alt: 'A dark room with a polished floor in which globes of opal glass hang at many heights',
     model: 'lamps',
     camera: 'Room',
-    options: { samples: 512, 'max-depth': 10, exposure: 0.5 },
+    options: { samples: 512, 'max-depth': 10, exposure: 1 },
   },
   {
     id: 'tumbler-whisky',
@@ -199,9 +199,9 @@ export const GALLERY: readonly GalleryImage[] = [
   {
     id: 'speedform-yellow',
     title: 'Yellow',
-    alt: 'The streamlined body in yellow lacquer from the side',
+    alt: 'The streamlined body in yellow lacquer, seen from its nose',
     model: 'speedform',
-    camera: 'Side',
+    camera: 'Nose',
     variant: 'yellow',
   },
   {

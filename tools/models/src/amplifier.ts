@@ -192,7 +192,7 @@ export function createAmplifier(): Scene {
   });
   stage.softbox({
     name: 'Fill',
-    at: [420, 1050, 1250],
+    at: [460, 470, 1250],
     to: [0, 80, 160],
     width: 1100,
     height: 420,
@@ -218,7 +218,7 @@ export function createAmplifier(): Scene {
     gradient: 5,
   });
   stage.camera('Front', {
-    direction: [-0.3, 0.22, 1],
+    direction: [-0.34, 0.1, 1],
     around: 'Front',
     margin: 0.16,
     focalLength: 80,
@@ -226,8 +226,8 @@ export function createAmplifier(): Scene {
     focus: [-20, 80, 165],
   });
   stage.camera('Knob', {
-    eye: [250, 190, 420],
-    target: [84, 76, 165],
+    eye: [-20, 96, 470],
+    target: [92, 80, 165],
     focalLength: 80,
     lensRadius: 3,
     focus: [118, 84, 188],

@@ -109,6 +109,6 @@ export function createSpeedform(): Scene {
     color: [0.9, 0.95, 1],
   });
   stage.camera('Three quarters', { direction: [-0.75, 0.27, 1], margin: 0.1, focalLength: 85 });
-  stage.camera('Side', { direction: [0.05, 0.12, 1], margin: 0.1, focalLength: 85 });
+  stage.camera('Nose', { direction: [-1.15, 0.3, 0.62], margin: 0.12, focalLength: 85 });
   return stage.scene;
 }

@@ -1,9 +1,11 @@
+import { h } from 'vue';
 import type { Theme } from 'vitepress';
 import DefaultTheme from 'vitepress/theme-without-fonts';
 import FigureGrid from './FigureGrid.vue';
 import FigureTable from './FigureTable.vue';
 import GalleryGrid from './GalleryGrid.vue';
 import ResultPlot from './ResultPlot.vue';
+import HomeGallery from './HomeGallery.vue';
 import LiveBall from './LiveBall.vue';
 import LiveHierarchy from './LiveHierarchy.vue';
 import LiveParameters from './LiveParameters.vue';
@@ -15,6 +17,7 @@ import './style.css';
 
 export default {
   extends: DefaultTheme,
+  Layout: () => h(DefaultTheme.Layout, null, { 'home-hero-after': () => h(HomeGallery) }),
   enhanceApp({ app, router }) {
     // As the built pages say it, for those who come here by a link.
     router.onAfterRouteChange = () => {
