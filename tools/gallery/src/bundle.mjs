@@ -51,6 +51,8 @@ export async function bundleGallery(out) {
     plugins: [weslSource(), draco],
     logLevel: 'error',
   });
+  // The command reads its version beside its folder.
+  copyFileSync(join(root, 'packages/cli/package.json'), join(out, 'package.json'));
   let bytes = statSync(outfile).size;
   for (const name of WEIGHTS) {
     const target = join(out, `weights/${name}.tza`);

@@ -9,11 +9,12 @@ import { cameraFile, cameraJson, commandOf } from './command';
 import { DEFAULTS, GALLERY, SIZE, type GalleryImage } from './manifest';
 import type { GalleryRecord } from './record';
 
-const HELP = `npm run gallery -- [--only ID,ID] [--scale F] [--samples N] [--denoise NAME] [--out FOLDER]
+const HELP = `npm run gallery -- [--only ID,ID] [--part K/N] [--scale F] [--samples N] [--denoise NAME] [--out FOLDER]
 
 Renders the images of the gallery with glanz render and writes them, with the models and gallery.json.
 
   --only ID,ID    These images only; --list prints all of them.
+  --part K/N      Every Nth image from the Kth on, to render in several runs.
   --scale F       Multiplies the size, 1600x1000. Default 1.
   --samples N     Samples per pixel. Default: what the manifest says.
   --denoise NAME  fast, balanced or off. Default balanced.
@@ -40,6 +41,13 @@ function chosen(only: string | undefined): readonly GalleryImage[] {
     if (!image) throw new UsageError(`There is no image "${id}"; --list prints all of them.`);
     return image;
   });
+}
+
+function partOf(images: readonly GalleryImage[], part: string | undefined): readonly GalleryImage[] {
+  if (part === undefined) return images;
+  const [, k, n] = /^(\d{1,3})\/(\d{1,3})$/.exec(part)?.map(Number) ?? [];
+  if (!k || !n || k > n) throw new UsageError(`--part must be like 1/2, not "${part}".`);
+  return images.filter((_, i) => i % n === k - 1);
 }
 
 const perspective = (scene: Scene, name: string): PerspectiveCamera => {
@@ -127,6 +135,7 @@ export async function galleryMain(argv: readonly string[]): Promise<number> {
       args: [...argv],
       options: {
         only: { type: 'string' },
+        part: { type: 'string' },
         scale: { type: 'string' },
         samples: { type: 'string' },
         denoise: { type: 'string' },
@@ -141,7 +150,7 @@ export async function galleryMain(argv: readonly string[]): Promise<number> {
       process.stdout.write(HELP);
       return 0;
     }
-    const images = chosen(values.only);
+    const images = partOf(chosen(values.only), values.part);
     if (values.list) {
       for (const { id, title } of images) process.stdout.write(`${id.padEnd(24)} ${title}\n`);
       return 0;

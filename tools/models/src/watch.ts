@@ -274,7 +274,7 @@ export function createWatch(): Scene {
   part('Date', dateWindow, (b) =>
     roundedBox(b, { at: [9.2, 0, -2.75], size: [2.2, 1.8, 0.12], corner: 0.2, edge: 0.04 }),
   );
-  part('Crystal', glass('crystal', { extra: { geometry_thin_walled: true } }), (b) =>
+  part('Crystal', glass('crystal, coated', { ior: 1.22, extra: { geometry_thin_walled: true } }), (b) =>
     lathe(
       b,
       [
@@ -308,11 +308,11 @@ export function createWatch(): Scene {
   stage.sweep(matte('backdrop', [0.34, 0.36, 0.39]), { front: 500, back: 260, radius: 200, height: 700, width: 1600 });
   stage.softbox({
     name: 'Key',
-    at: [-190, 215, 150],
+    at: [-215, 225, 112],
     to: [0, 34, 0],
     width: 260,
     height: 220,
-    radiance: 5,
+    radiance: 3.4,
     gradient: 10,
   });
   stage.softbox({
