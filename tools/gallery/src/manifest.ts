@@ -197,14 +197,6 @@ export const GALLERY: readonly GalleryImage[] = [
     variant: 'blush',
   },
   {
-    id: 'speedform-yellow',
-    title: 'Yellow',
-    alt: 'The streamlined body in yellow lacquer, seen from its nose',
-    model: 'speedform',
-    camera: 'Nose',
-    variant: 'yellow',
-  },
-  {
     id: 'ring-sapphire',
     title: 'Sapphire',
     alt: 'A sapphire in a platinum setting from near',

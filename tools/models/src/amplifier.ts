@@ -7,15 +7,15 @@ import { ALUMINIUM, coated, emitter, glass, matte, metal, plastic } from './stag
 import { at, Stage } from './stage/stage';
 import { rotation, type Matrix } from './stage/transform';
 
-/** Tangents along x: brushed from left to right. */
+/** The tangents of a metal brushed from left to right, along x: across the scratches, where the surface is rougher. */
 function brushAlong(mesh: Mesh): void {
   const { normals: n } = mesh;
   const tangents = new Float32Array((n!.length / 3) * 4);
   for (let i = 0, t = 0; t < tangents.length; i += 3, t += 4) {
     const [x, y, z] = [n![i]!, n![i + 1]!, n![i + 2]!];
-    const along = Math.abs(x) < 0.9 ? [1 - x * x, -x * y, -x * z] : [-z * x, -z * y, 1 - z * z];
-    const length = Math.hypot(...along);
-    for (let k = 0; k < 3; k++) tangents[t + k] = along[k]! / length;
+    const across = Math.abs(y) < 0.9 ? [-x * y, 1 - y * y, -z * y] : [-x * z, -y * z, 1 - z * z];
+    const length = Math.hypot(...across);
+    for (let k = 0; k < 3; k++) tangents[t + k] = across[k]! / length;
     tangents[t + 3] = 1;
   }
   mesh.tangents = tangents;
@@ -173,7 +173,7 @@ export function createAmplifier(): Scene {
         ),
       at(x, 0, 110),
     );
-  stage.sweep(coated(plastic('sideboard', [0.24, 0.11, 0.05], 0.45), 0.16), {
+  stage.sweep(coated(plastic('sideboard', [0.14, 0.062, 0.03], 0.45), 0.16), {
     front: 1200,
     back: 700,
     radius: 200,

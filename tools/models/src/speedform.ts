@@ -63,7 +63,6 @@ export function createSpeedform(): Scene {
     blue: paint('paint blue', [0.01, 0.09, 0.45]),
     silver: paint('paint silver', [0.66, 0.67, 0.68], 0.32),
     black: coated(plastic('paint black', [0.008, 0.008, 0.01], 0.3), 0.01),
-    yellow: coated(plastic('paint yellow', [0.85, 0.42, 0.005], 0.3), 0.01),
   });
   stage.sweep(plastic('studio floor', [0.035, 0.036, 0.04], 0.28), {
     front: 1600,
@@ -109,6 +108,5 @@ export function createSpeedform(): Scene {
     color: [0.9, 0.95, 1],
   });
   stage.camera('Three quarters', { direction: [-0.75, 0.27, 1], margin: 0.1, focalLength: 85 });
-  stage.camera('Nose', { direction: [-1.15, 0.3, 0.62], margin: 0.12, focalLength: 85 });
   return stage.scene;
 }

@@ -11,14 +11,17 @@ import { glass, matte, metal, plastic, STEEL } from './stage/materials';
 import { at, Stage } from './stage/stage';
 import { rotation, type Matrix } from './stage/transform';
 
-/** Gives a mesh tangents that run around its z axis, or away from it: the direction of brushing. */
+/**
+ * Gives a mesh the tangents of a metal brushed around its z axis, or outwards from it: they lie across the scratches, as
+ * that is where the surface is rougher.
+ */
 export function brush(mesh: Mesh, direction: 'around' | 'outwards'): void {
   const { positions: p, normals: n } = mesh;
   const tangents = new Float32Array((p.length / 3) * 4);
   for (let i = 0, t = 0; i < p.length; i += 3, t += 4) {
     const r = Math.hypot(p[i]!, p[i + 1]!) || 1;
     const [c, s] = r < 1e-9 ? [1, 0] : [p[i]! / r, p[i + 1]! / r];
-    const v = direction === 'around' ? [-s, c, 0] : [c, s, 0];
+    const v = direction === 'around' ? [c, s, 0] : [-s, c, 0];
     const d = v[0]! * n![i]! + v[1]! * n![i + 1]!;
     const along = v.map((x, k) => x - d * n![i + k]!);
     const length = Math.hypot(...along);
