@@ -54,7 +54,12 @@ const project = (
 ) => ({
   plugins: [weslModules()],
   resolve,
-  ssr: { resolve: { conditions: ['@glanz/source', 'node', 'module', 'import', 'default'] } },
+  // @aws-sdk has modules for bundlers under "module", which Node cannot load.
+  ssr: {
+    resolve: {
+      conditions: ['@glanz/source', 'node', ...(['cli', 'farm'].includes(name) ? [] : ['module']), 'import', 'default'],
+    },
+  },
   test: {
     name,
     root: dir,

@@ -68,7 +68,15 @@ const COMMANDS = {
   options of glanz render are defaults for the images.
       --redis URL       redis://HOST:6379. Default: GLANZ_REDIS.
       --queue NAME      Several farms may share a Redis. Default glanz.
-      --store DIR       A folder that all machines see. Default .glanz-farm.
+      --store DIR       A folder that all machines see. Default .glanz-farm. Or
+                        s3://BUCKET/PREFIX, which needs @aws-sdk/client-s3:
+                        credentials and region as AWS's tools take them. Images
+                        then stay in the bucket until manifest, or submitting
+                        again, copies them; work copies them with --output-root.
+      --s3-endpoint URL Another server of S3's protocol. Default:
+                        AWS_ENDPOINT_URL_S3 or AWS_ENDPOINT_URL.
+      --store-cache DIR What was downloaded of the bucket. Default: glanz/farm in
+                        XDG_CACHE_HOME or ~/.cache.
       --output-root DIR submit: the folder below which all files are written.
                         Default: that of the batch. work: the same folder where
                         this machine sees it under another name.

@@ -4,6 +4,7 @@ import { describe, expect, it } from 'vitest';
 import type { BlasCache } from '@glanz/bvh/cache';
 import { farmRenderer } from '../src/farm/job-renderer';
 import { FarmPlan, type PlannedImage } from '../src/farm/plan';
+import { parseFarm } from '../src/commands/farm/parse';
 import { modelFiles } from '../src/farm/model-files';
 import { FolderStore } from '@glanz/farm';
 import { fakeBackend, fakeIo, run, temporaryFolder } from './fakes';
@@ -123,6 +124,20 @@ describe('the files of a model', () => {
   });
 });
 
+describe('where the store is', () => {
+  const storeOf = (argv: string[], environment: NodeJS.ProcessEnv = {}) =>
+    parseFarm(['clean', '--older-than', '1d', ...argv], environment).store;
+
+  it('a folder, or a bucket with its server and a cache', () => {
+    expect(storeOf([])).toEqual({ url: '.glanz-farm' });
+    const s3 = ['--store', 's3://a/b'];
+    expect(storeOf([...s3, '--store-cache', 'c'])).toEqual({ url: 's3://a/b', endpoint: undefined, cache: 'c' });
+    const environment = { AWS_ENDPOINT_URL: 'http://x', XDG_CACHE_HOME: '/h' };
+    expect(storeOf(s3, environment)).toEqual({ url: 's3://a/b', endpoint: 'http://x', cache: '/h/glanz/farm' });
+    expect(storeOf([...s3, '--s3-endpoint', 'http://y'], environment).endpoint).toBe('http://y');
+  });
+});
+
 describe('the command line', () => {
   it.each([
     [['farm'], /is not an action of glanz farm/],
@@ -136,6 +151,8 @@ describe('the command line', () => {
     [['farm', 'manifest', 'b'], /needs --manifest/],
     [['farm', 'submit', 'b', '--untl-empty'], /Did you mean --until-empty/],
     [['farm', 'status', '--redis', 'localhost'], /must be like redis:/],
+    [['farm', 'clean', '--older-than', '1d', '--s3-endpoint', 'http://a'], /--s3-endpoint is for a store in a bucket/],
+    [['farm', 'clean', '--older-than', '1d', '--store', 's3://B/x'], /s3:\/\/bucket or s3/],
   ])('%j', async (argv, message) => {
     const { code, err } = await run(argv, temporaryFolder());
     expect(err).toMatch(message);
@@ -176,7 +193,7 @@ describe('the command line', () => {
       const message = {
         type: 'job' as const,
         job,
-        store: store.folder,
+        store: store.address,
         folder: await store.begin(job.id),
         checkpoint: await store.checkpoint(job.id),
       };

@@ -75,7 +75,38 @@ describe('Open Job Description', () => {
     const args = numbered[0]!.script.actions.onRun.args.map((text) =>
       text.replace('{{Task.Param.Image}}', '1').replace(/\{\{Param\.(\w+)\}\}/, '$1'),
     );
-    expect(parseFarm(args.slice(1))).toMatchObject({ action: 'task', args: ['Batch'], images: [1], store: 'Store' });
+    expect(parseFarm(args.slice(1))).toMatchObject({
+      action: 'task',
+      args: ['Batch'],
+      images: [1],
+      store: { url: 'Store' },
+    });
+  });
+
+  it('a store in a bucket is a text, with its endpoint', async () => {
+    const { openJdTemplate } = await import('../src/farm/openjd');
+    const template = openJdTemplate('b', [{ shot: { view: { name: 'front' } }, requests: [] } as never], {
+      folder: '/w',
+      batch: '/w/b.json',
+      store: { url: 's3://farm/x', endpoint: 'http://127.0.0.1:9', cache: '/c' },
+      outputRoot: '/w',
+      cwd: '/w',
+      split: undefined,
+      gpu: undefined,
+      values: {},
+    });
+    expect(template).toMatchObject({
+      parameterDefinitions: expect.arrayContaining([{ name: 'Store', type: 'STRING', default: 's3://farm/x' }]),
+      steps: [
+        {
+          script: {
+            actions: {
+              onRun: { args: expect.arrayContaining(['--store={{Param.Store}}', '--s3-endpoint=http://127.0.0.1:9']) },
+            },
+          },
+        },
+      ],
+    });
   });
 
   it.skipIf(openjd.missing !== undefined)(
@@ -121,7 +152,7 @@ describe('the examples of the documentation', () => {
       action: 'task',
       args: ['catalogue.csv'],
       images: [17],
-      store: '/mnt/farm',
+      store: { url: '/mnt/farm' },
     });
     // Options of sbatch are comments at the beginning.
     const text = readFileSync(join(examples, 'slurm.sh'), 'utf8');

@@ -24,6 +24,7 @@ export async function bundleProgram(outfile: string): Promise<void> {
       'meshoptimizer/*',
       'bullmq',
       'ioredis',
+      '@aws-sdk/client-s3',
     ],
     // Some dependencies of dependencies are CommonJS and ask for Node's modules by require().
     banner: {

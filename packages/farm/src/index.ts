@@ -1,7 +1,11 @@
 export { FarmError } from './error';
 export { canonicalJson, contentId } from './identity';
 export type { Destination, FarmJob, FarmJobKind, FarmRequest, JobResult, ResultFile } from './job';
-export { FolderStore, type BundleFile } from './store/folder-store';
+export type { BundleFile, Cleaned, FarmStore, StoreAddress } from './store/store';
+export { FolderStore } from './store/folder-store';
+export { S3Store } from './store/s3/s3-store';
+export { importS3, type S3Answer, type S3Module } from './store/s3/s3-module';
+export { openFarmStore } from './store/open-store';
 export { FarmQueue, openFarmQueue, type DeadLetter, type FarmQueueOptions, type Submission } from './queue/farm-queue';
 export type { QueueKeys } from './queue/keys';
 export {

@@ -1,6 +1,5 @@
-import { join } from 'node:path';
 import type { BlasCache } from '@glanz/bvh/cache';
-import { FarmError, FolderStore, type JobRenderer } from '@glanz/farm';
+import { FarmError, openFarmStore, type FarmStore, type JobRenderer, type StoreAddress } from '@glanz/farm';
 import { GlanzError } from '@glanz/scene';
 import type { Backend } from '../backend';
 import { CliError, describeError, EXIT, exitCodeOf } from '../errors';
@@ -26,7 +25,7 @@ class JobProgress extends ProgressReporter {
 }
 
 /** Hierarchies of a store, which all its workers share. */
-async function storedHierarchies(store: FolderStore, onError: (error: unknown) => void): Promise<BlasCache> {
+async function storedHierarchies(store: FarmStore, onError: (error: unknown) => void): Promise<BlasCache> {
   const [{ buildBlas }, { BlasCache }] = await Promise.all([import('@glanz/bvh'), import('@glanz/bvh/cache')]);
   return new BlasCache(store.hierarchies, { buildBlas }, { onError });
 }
@@ -53,8 +52,18 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     },
   };
   let worker = new GpuWorker(context, gpu);
+  let opened: { readonly key: string; readonly store: Promise<FarmStore> } | undefined;
+  const storeAt = async (address: StoreAddress): Promise<FarmStore> => {
+    const key = JSON.stringify(address);
+    if (opened?.key !== key) opened = { key, store: openFarmStore(address) };
+    // One that cannot be opened is tried again with the next job.
+    return opened.store.catch((error: unknown) => {
+      opened = undefined;
+      throw error;
+    });
+  };
   return {
-    async render({ job, store: storeFolder, folder, checkpoint }, stop, onProgress) {
+    async render({ job, store: address, folder, checkpoint }, stop, onProgress) {
       const payload = job.payload as JobPayload;
       if (payload.version !== version())
         throw new CliError(
@@ -63,7 +72,7 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
         );
       signal = stop;
       progress.onSamples = onProgress;
-      const store = new FolderStore(storeFolder);
+      const store = await storeAt(address);
       hierarchies = await storedHierarchies(store, (error) => progress.warning(describeError(error).message));
       const files = payload.outputs.map((target, i) => outputName(i, target));
       const shot = await shotOf(payload, store, folder, job.kind === 'merge' ? undefined : checkpoint);
@@ -107,8 +116,8 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     },
   };
 
-  function readParts(parts: readonly string[], store: FolderStore): ReturnType<typeof readFilms> {
-    const paths = parts.map((id) => join(store.resultFolder(id), outputName(0, { format: 'film' })));
+  async function readParts(parts: readonly string[], store: FarmStore): ReturnType<typeof readFilms> {
+    const paths = await Promise.all(parts.map((id) => store.resultFile(id, outputName(0, { format: 'film' }))));
     return readFilms(paths, io.cwd, backend);
   }
 

@@ -1,4 +1,5 @@
 import { isAbsolute, relative, resolve } from 'node:path';
+import type { StoreAddress } from '@glanz/farm';
 import { isEnvironmentFile } from '../environment';
 import { CliError } from '../errors';
 import { OPTIONS, type RenderValues } from '../options';
@@ -10,7 +11,7 @@ export interface OpenJdOptions {
   /** Absolute paths; of the template's own folder, too. */
   readonly folder: string;
   readonly batch: string;
-  readonly store: string;
+  readonly store: StoreAddress;
   readonly outputRoot: string;
   readonly cwd: string;
   readonly split: number | undefined;
@@ -92,6 +93,7 @@ export function openJdTemplate(
     'task',
     '{{Param.Batch}}',
     '--store={{Param.Store}}',
+    ...(store.endpoint === undefined ? [] : [`--s3-endpoint=${literal(store.endpoint)}`]),
     '--output-root={{Param.OutputRoot}}',
     `--image=${image}`,
     ...(split === undefined ? [] : [`--split=${split}`]),
@@ -116,7 +118,9 @@ export function openJdTemplate(
     parameterDefinitions: [
       { name: 'Glanz', type: 'STRING', default: 'glanz', description: 'The glanz command on the workers.' },
       pathParameter('Batch', batch, folder, { objectType: 'FILE', dataFlow: 'IN' }),
-      pathParameter('Store', store, folder, { objectType: 'DIRECTORY', dataFlow: 'INOUT' }),
+      store.url.startsWith('s3://')
+        ? { name: 'Store', type: 'STRING', default: literal(store.url) }
+        : pathParameter('Store', store.url, folder, { objectType: 'DIRECTORY', dataFlow: 'INOUT' }),
       pathParameter('OutputRoot', outputRoot, folder, { objectType: 'DIRECTORY', dataFlow: 'OUT' }),
     ],
     steps:

@@ -1,5 +1,5 @@
 import { resolve } from 'node:path';
-import { contentId, type FolderStore } from '@glanz/farm';
+import { contentId, type FarmStore } from '@glanz/farm';
 import { isEnvironmentFile } from '../environment';
 import type { RenderCommandOptions } from '../options';
 import type { OutputTarget } from '../output/formats';
@@ -48,7 +48,7 @@ export const outputName = (index: number, { format }: Pick<OutputTarget, 'format
  */
 export async function shotOf(
   payload: JobPayload,
-  store: FolderStore,
+  store: FarmStore,
   folder: string,
   checkpoint: string | undefined,
 ): Promise<Shot> {

@@ -1,6 +1,6 @@
 import { createHash } from 'node:crypto';
 import { dirname, relative, resolve } from 'node:path';
-import type { BundleFile, FarmRequest, FolderStore } from '@glanz/farm';
+import type { BundleFile, FarmRequest, FarmStore } from '@glanz/farm';
 import { checkBatchOutputs, openBatch, type BatchRequest } from '../batch-file';
 import { isEnvironmentFile } from '../environment';
 import { CliError } from '../errors';
@@ -111,7 +111,7 @@ export class FarmPlan {
   }
 
   /** All images, one by one. Models and environments are put into the store as they come. */
-  async *images(store: FolderStore): AsyncGenerator<PlannedImage> {
+  async *images(store: FarmStore): AsyncGenerator<PlannedImage> {
     let index = 0;
     for (const request of this.#requests())
       for (const shot of await this.#shots(request)) yield await this.#planned(shot, index++, store);
@@ -125,7 +125,7 @@ export class FarmPlan {
     return shotsOf(options, await names);
   }
 
-  async #planned(shot: Shot, index: number, store: FolderStore): Promise<PlannedImage> {
+  async #planned(shot: Shot, index: number, store: FarmStore): Promise<PlannedImage> {
     const { cwd } = this.#options;
     const { options, variant, view } = shot;
     const { env } = options;
@@ -190,11 +190,11 @@ export class FarmPlan {
     return ranges;
   }
 
-  #scene(model: string, store: FolderStore): Promise<JobPayload['scene']> {
+  #scene(model: string, store: FarmStore): Promise<JobPayload['scene']> {
     return this.#bundle(model, store, async (path) => modelFiles(path));
   }
 
-  #environment(env: string, store: FolderStore): Promise<JobPayload['scene']> {
+  #environment(env: string, store: FarmStore): Promise<JobPayload['scene']> {
     return this.#bundle(env, store, async (path) => {
       const main = `environment${/\.\w+$/.exec(path)?.[0].toLowerCase() ?? ''}`;
       return { main, files: [{ name: main, path }] };
@@ -203,7 +203,7 @@ export class FarmPlan {
 
   #bundle(
     file: string,
-    store: FolderStore,
+    store: FarmStore,
     filesOf: (path: string) => Promise<{ readonly main: string; readonly files: readonly BundleFile[] }>,
   ): Promise<JobPayload['scene']> {
     let scene = this.#scenes.get(file);
@@ -217,7 +217,7 @@ export class FarmPlan {
     return scene;
   }
 
-  #commonOf(options: RenderCommandOptions, store: FolderStore): Promise<string> {
+  #commonOf(options: RenderCommandOptions, store: FarmStore): Promise<string> {
     let hash = this.#common.get(options);
     if (!hash) {
       // The rows of a large batch come one after another: only the last one is looked for again.

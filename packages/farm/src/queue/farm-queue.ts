@@ -1,5 +1,5 @@
 import type { Destination, FarmJob, FarmRequest, JobResult } from '../job';
-import type { FolderStore } from '../store/folder-store';
+import type { FarmStore } from '../store/store';
 import { keysOf, type QueueKeys } from './keys';
 import {
   connectRedis,
@@ -64,7 +64,7 @@ export class FarmQueue {
    */
   async submit(
     requests: Iterable<FarmRequest> | AsyncIterable<FarmRequest>,
-    store: FolderStore,
+    store: FarmStore,
     onGroup: (soFar: Submission) => void = () => undefined,
   ): Promise<Submission> {
     let soFar: Submission = { queued: 0, finished: 0 };
@@ -84,7 +84,7 @@ export class FarmQueue {
     return soFar;
   }
 
-  async #submitGroup(group: readonly FarmRequest[], store: FolderStore): Promise<Submission> {
+  async #submitGroup(group: readonly FarmRequest[], store: FarmStore): Promise<Submission> {
     const results = await Promise.all(group.map(({ job }) => store.result(job.id)));
     const open = group.filter((_, i) => !results[i]);
     // First where the files go, then the job: a worker that finishes it between the two finds the destination.

@@ -1,9 +1,8 @@
 import { createReadStream } from 'node:fs';
 import { createServer, type ServerResponse } from 'node:http';
-import { join } from 'node:path';
 import { farmMetrics } from '../metrics';
 import type { FarmQueue } from '../queue/farm-queue';
-import type { FolderStore } from '../store/folder-store';
+import type { FarmStore } from '../store/store';
 import { acceptsHost } from './loopback-host';
 import { STATUS_PAGE } from './status-page';
 
@@ -34,7 +33,7 @@ const FRESH_MS = 500;
  * | `/metrics` | Prometheus text |
  * | `/result/ID/N` | the Nth file of a result, `.png` only |
  */
-export function statusServer(queue: FarmQueue, store: FolderStore): StatusServer {
+export function statusServer(queue: FarmQueue, store: FarmStore): StatusServer {
   let cached: { readonly at: number; readonly text: Promise<string> } | undefined;
   const statusText = () => {
     if (!cached || Date.now() - cached.at > FRESH_MS) {
@@ -69,6 +68,7 @@ export function statusServer(queue: FarmQueue, store: FolderStore): StatusServer
       const [, id, index] = /^\/result\/([0-9a-f]{40})\/(\d{1,3})$/.exec(pathname) ?? [];
       const name = id && (await store.result(id))?.files[Number(index)]?.name;
       if (!id || !name || !/^[\w-]+\.png$/.test(name)) return send(response, 404, 'text/plain', 'Not found.\n');
+      const file = await store.resultFile(id, name);
       response.writeHead(200, {
         'content-type': 'image/png',
         // A result never changes.
@@ -76,7 +76,7 @@ export function statusServer(queue: FarmQueue, store: FolderStore): StatusServer
         'content-security-policy': POLICY,
         'x-content-type-options': 'nosniff',
       });
-      createReadStream(join(store.resultFolder(id), name))
+      createReadStream(file)
         .on('error', () => response.destroy())
         .pipe(response);
     };

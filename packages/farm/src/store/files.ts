@@ -15,7 +15,8 @@ export async function hashFile(file: string): Promise<string> {
 /** A name beside a file that no other process uses. */
 export const partialOf = (file: string): string => `${file}.${process.pid}-${randomBytes(4).toString('hex')}.partial`;
 
-const replaced = async (file: string, write: (partial: string) => Promise<void>): Promise<void> => {
+/** Writes a file through another one beside it, so that it appears whole or not at all. @throws {FarmError} `farm/store` */
+export const replaced = async (file: string, write: (partial: string) => Promise<void>): Promise<void> => {
   const partial = partialOf(file);
   try {
     await mkdir(dirname(file), { recursive: true });

@@ -1,31 +1,16 @@
-import { createHash, randomBytes } from 'node:crypto';
+import { randomBytes } from 'node:crypto';
 import { mkdir, readFile, readdir, rename, rm, stat, utimes } from 'node:fs/promises';
-import { join, resolve } from 'node:path';
+import { basename, join, resolve } from 'node:path';
 import { FarmError } from '../error';
 import type { Destination, JobResult } from '../job';
+import { bundleFiles, bundleText, checked, hashOf } from './content';
+import { deliverFiles } from './deliver';
 import { copyWhole, hashFile, partialOf, writeWhole } from './files';
-import { liesBelow } from './lies-below';
+import type { BundleFile, Cleaned, FarmStore, StoreAddress } from './store';
 
-/** A file of a bundle: its name within the bundle, and where its bytes are. */
-export interface BundleFile {
-  /** With slashes, without `..`. */
-  readonly name: string;
-  readonly path: string;
-}
-
-const ID = /^[0-9a-f]{40,64}$/;
 const DAY_MS = 86_400_000;
 /** Uses are noted so often: the unit of `glanz farm clean --older-than`. */
 const USE_MS = 60_000;
-
-/** Refuses what is no identity, so that no id of a queue leads out of the store. */
-function checked(id: string): string {
-  if (!ID.test(id)) throw new FarmError('farm/store', `"${id}" is not the identity of anything in the store.`);
-  return id;
-}
-
-const isName = (name: string) =>
-  name !== '' && !name.startsWith('/') && !/[\\\0:]/.test(name) && !name.split('/').some((p) => p === '..' || p === '');
 
 /**
  * Content by its SHA-256, bundles of files, results and checkpoints of jobs, in a folder that all machines see.
@@ -43,12 +28,16 @@ const isName = (name: string) =>
  * A result appears as a whole, by the renaming of its folder, and stays: of two workers that finish the same job, the
  * second one's files are dropped.
  */
-export class FolderStore {
+export class FolderStore implements FarmStore {
   /** Absolute. */
   readonly folder: string;
 
   constructor(folder: string) {
     this.folder = resolve(folder);
+  }
+
+  get address(): StoreAddress {
+    return { url: this.folder };
   }
 
   /** Where the content with a hash is. */
@@ -58,7 +47,7 @@ export class FolderStore {
 
   /** Keeps bytes. Gives their SHA-256. */
   async put(content: Uint8Array | string): Promise<string> {
-    const hash = createHash('sha256').update(content).digest('hex');
+    const hash = hashOf(content);
     const file = this.objectPath(hash);
     if (!(await used(file))) await writeWhole(file, content);
     return hash;
@@ -85,31 +74,29 @@ export class FolderStore {
     const bytes = await readFile(file).catch((cause: Error) => {
       throw new FarmError('farm/store', `The store has no object ${hash}: ${cause.message}.`, { cause });
     });
-    if (createHash('sha256').update(bytes).digest('hex') !== hash)
+    if (hashOf(bytes) !== hash)
       throw new FarmError('farm/store', `The object ${hash} is damaged: delete "${file}" and submit again.`);
     return bytes;
   }
 
   /** Keeps files that belong together. Gives the bundle's hash, which depends on names and contents alone. */
   async putBundle(files: readonly BundleFile[]): Promise<string> {
+    // Names are checked before anything is copied.
+    bundleText(files.map(({ name }) => [name, '']));
     const list: [string, string][] = [];
-    for (const { name, path } of files) {
-      if (!isName(name)) throw new FarmError('farm/store', `"${name}" cannot be the name of a file in a bundle.`);
-      list.push([name, await this.putFile(path)]);
-    }
-    return this.put(JSON.stringify(list.sort(([a], [b]) => (a < b ? -1 : 1))));
+    for (const { name, path } of files) list.push([name, await this.putFile(path)]);
+    return this.put(bundleText(list));
   }
 
   /** A folder with the files of a bundle. They are not to be changed. */
   async bundle(hash: string): Promise<string> {
     const folder = join(this.folder, 'bundles', checked(hash));
     if (await used(folder)) return folder;
-    const list = JSON.parse(new TextDecoder().decode(await this.read(hash))) as [string, string][];
+    const list = bundleFiles(await this.read(hash), hash);
     const partial = partialOf(folder);
     await mkdir(partial, { recursive: true });
     try {
       for (const [name, object] of list) {
-        if (!isName(name)) throw new FarmError('farm/store', `The bundle ${hash} names a file outside of itself.`);
         await copyWhole(this.objectPath(object), join(partial, name));
         if ((await hashFile(join(partial, name))) !== object)
           throw new FarmError('farm/store', `The object ${object} is damaged: delete it and submit again.`);
@@ -124,6 +111,10 @@ export class FolderStore {
   /** The folder of a job's result. */
   resultFolder(id: string): string {
     return join(this.folder, 'results', checked(id).slice(0, 2), id);
+  }
+
+  async resultFile(id: string, name: string): Promise<string> {
+    return join(this.resultFolder(id), basename(name));
   }
 
   /** The result of a finished job; `undefined` if it is not finished, or a file of it is missing. */
@@ -181,22 +172,22 @@ export class FolderStore {
     return join(folder, `${checked(id)}.film`);
   }
 
+  /** Nothing to do: all machines see the file. */
+  async keepCheckpoint(): Promise<void> {}
+
+  async dropCheckpoint(id: string): Promise<void> {
+    await rm(await this.checkpoint(id), { force: true });
+  }
+
   /**
    * Copies the files of a result to where they are wanted; files that are there already stay.
    *
    * @throws {FarmError} `farm/store` for paths outside of the root, too few paths, and files that cannot be written
    */
-  async deliver(result: JobResult, { root, paths }: Destination): Promise<void> {
-    if (paths.length !== result.files.length)
-      throw new FarmError('farm/store', `${result.label}: ${paths.length} paths for ${result.files.length} files.`);
-    for (const [i, { name, bytes, sha256 }] of result.files.entries()) {
-      const target = resolve(root, paths[i] as string);
-      if (!(await liesBelow(target, root)))
-        throw new FarmError('farm/store', `"${target}" lies outside the folder "${root}".`);
-      const there = await stat(target).catch(() => undefined);
-      if (there?.isFile() && there.size === bytes && (await hashFile(target)) === sha256) continue;
-      await copyWhole(join(this.resultFolder(result.id), name), target);
-    }
+  deliver(result: JobResult, destination: Destination): Promise<void> {
+    return deliverFiles(result, destination, ({ name }, target) =>
+      copyWhole(join(this.resultFolder(result.id), name), target),
+    );
   }
 
   /** Hierarchies by their keys, for a `BlasCache` of `@glanz/bvh/cache`. */
@@ -220,7 +211,7 @@ export class FolderStore {
    *
    * @param olderThanMs Milliseconds; a use is noted once a minute.
    */
-  async clean(olderThanMs: number, now = Date.now()): Promise<{ readonly entries: number; readonly bytes: number }> {
+  async clean(olderThanMs: number, now = Date.now()): Promise<Cleaned> {
     const total = { entries: 0, bytes: 0 };
     const before = now - Math.max(0, olderThanMs);
     const remove = async (path: string) => {

@@ -15,18 +15,21 @@ import {
   type RedisClient,
 } from '../queue/redis';
 import type { WorkerState } from '../queue/status';
-import type { FolderStore } from '../store/folder-store';
+import type { FarmStore } from '../store/store';
 import { pauseAfter, verdictOn, type Tries } from './failure-policy';
 import { RenderFailure, RendererProcess, type RenderEnd, type RendererProcessOptions } from './renderer-process';
 
 /** Options of {@link startFarmWorker}. */
 export interface FarmWorkerOptions extends FarmQueueOptions {
-  readonly store: FolderStore;
+  readonly store: FarmStore;
   readonly renderer: RendererProcessOptions;
   /** For the status. Default: empty, the best GPU. */
   readonly gpu?: string | undefined;
-  /** Replaces the root of all destinations, where this machine sees the folder under another name. */
-  readonly outputRoot?: string | undefined;
+  /**
+   * Replaces the root of all destinations, where this machine sees the folder under another name. `false`: results stay
+   * in the store, for machines that do not see the folder.
+   */
+  readonly outputRoot?: string | false | undefined;
   /**
    * Milliseconds for which a job belongs to the worker without a renewal of its lock; the job of a worker that is killed
    * goes to another one after this time. Extended from the worker's own process, which renders nothing. Default: 30 s.
@@ -159,7 +162,7 @@ export class FarmWorker {
             },
             end.files,
           );
-          await rm(await store.checkpoint(job.id), { force: true });
+          await store.dropCheckpoint(job.id);
           const result = await store.result(job.id);
           if (!result) throw new FarmError('farm/store', `The result of ${job.label} is not there.`);
           return await this.#finished(job, result, first);
@@ -168,10 +171,11 @@ export class FarmWorker {
         await rm(folder, { recursive: true, force: true });
       }
       if (this.#current.cancelled) {
-        await rm(await store.checkpoint(job.id), { force: true });
+        await store.dropCheckpoint(job.id);
         onEvent?.({ type: 'cancelled', job });
         return 'cancelled';
       }
+      await store.keepCheckpoint(job.id);
       onEvent?.({ type: 'given-back', job });
       await queued.moveToWait(token);
       throw new Moved('WaitingError');
@@ -186,7 +190,7 @@ export class FarmWorker {
   async #rendered(job: FarmJob, folder: string): Promise<RenderEnd> {
     const { store } = this.#options;
     const end = this.#renderer.run(
-      { type: 'job', job, store: store.folder, folder, checkpoint: await store.checkpoint(job.id) },
+      { type: 'job', job, store: store.address, folder, checkpoint: await store.checkpoint(job.id) },
       (samples, of) => {
         if (this.#current) Object.assign(this.#current, { samples, of });
       },
@@ -202,7 +206,7 @@ export class FarmWorker {
       // The last parts may end at the same time: the queue takes the merge once.
       if (parts.every((part) => part))
         await this.#queue.addBulk([{ name: job.merge.kind, data: job.merge, opts: jobOptions(job.merge.id) }]);
-    } else {
+    } else if (outputRoot !== false) {
       const destinations = (await this.#redis.call('SMEMBERS', this.#keys.destinations(job.id))) as string[];
       for (const text of destinations) {
         const { root, paths } = JSON.parse(text) as Destination;
@@ -221,9 +225,11 @@ export class FarmWorker {
   }
 
   async #failed(queued: QueuedJob<FarmJob>, token: string | undefined, failure: RenderFailure): Promise<never> {
-    const { onEvent } = this.#options;
+    const { store, onEvent } = this.#options;
     const job = queued.data;
     const { kind, code, message } = failure;
+    // Another worker may continue from there; without them it begins again.
+    await store.keepCheckpoint(job.id).catch(() => undefined);
     const tried = Number(await this.#redis.call('HINCRBY', this.#keys.tries(job.id), kind, 1));
     const verdict = verdictOn(kind, { [kind]: tried } satisfies Tries);
     await queued.log(`${new Date().toISOString()} ${this.id}: ${message} [${code}]`);

@@ -1,14 +1,15 @@
 import { spawn, type ChildProcess } from 'node:child_process';
 import { FarmError } from '../error';
 import type { FarmJob } from '../job';
+import type { StoreAddress } from '../store/store';
 
 /** What a worker sends to its renderer's process. */
 export type ToRenderer =
   | {
       readonly type: 'job';
       readonly job: FarmJob;
-      /** The store's folder. */
-      readonly store: string;
+      /** Of the store, for `openFarmStore`. */
+      readonly store: StoreAddress;
       /** An empty folder for the files of the result. */
       readonly folder: string;
       /** Where samples are kept when the job is given back; they are there when it begins again. */

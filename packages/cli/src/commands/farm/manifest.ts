@@ -3,7 +3,6 @@ import { rename, rm } from 'node:fs/promises';
 import { resolve } from 'node:path';
 import { Readable } from 'node:stream';
 import { pipeline } from 'node:stream/promises';
-import { FolderStore } from '@glanz/farm';
 import { CliError, EXIT } from '../../errors';
 import type { FarmPlan } from '../../farm/plan';
 import type { CliIo } from '../../io';
@@ -11,6 +10,7 @@ import type { ProgressReporter } from '../../progress';
 import { namesOf } from '../../render/results';
 import { version } from '../../version';
 import { jsonLine, visible } from '../../visible';
+import { openStore } from './open-store';
 import type { FarmCommand } from './parse';
 
 /**
@@ -18,13 +18,14 @@ import type { FarmCommand } from './parse';
  * exit code: 1 while images are missing.
  */
 export async function writeManifest(
-  { store: folder, manifest, json, quiet }: FarmCommand,
+  command: FarmCommand,
   plan: FarmPlan,
   io: CliIo,
   progress: ProgressReporter,
 ): Promise<number> {
+  const { manifest, json, quiet } = command;
   await plan.check();
-  const store = new FolderStore(resolve(io.cwd, folder));
+  const store = await openStore(command, io);
   const file = resolve(io.cwd, manifest as string);
   const partial = `${file}.${process.pid}.partial`;
   let images = 0;

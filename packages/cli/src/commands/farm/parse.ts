@@ -1,4 +1,6 @@
+import { homedir } from 'node:os';
 import { join } from 'node:path';
+import type { StoreAddress } from '@glanz/farm';
 import { usage, OPTIONS, parseOptionsOf, presentNames, type RenderValues, type ReportOptions } from '../../options';
 
 /** What `glanz farm` takes beside the options of `glanz render`. */
@@ -7,6 +9,8 @@ const FARM_OPTIONS = {
   redis: { type: 'string' },
   queue: { type: 'string' },
   store: { type: 'string' },
+  's3-endpoint': { type: 'string' },
+  'store-cache': { type: 'string' },
   split: { type: 'string' },
   lock: { type: 'string' },
   image: { type: 'string' },
@@ -45,8 +49,8 @@ export interface FarmCommand extends ReportOptions {
   readonly args: readonly string[];
   readonly redis: string | undefined;
   readonly queue: string | undefined;
-  /** The store's folder. */
-  readonly store: string;
+  /** Folders in it are relative to the working directory. */
+  readonly store: StoreAddress;
   /** Maximum samples of a job. */
   readonly split: number | undefined;
   /** Seconds. */
@@ -82,7 +86,7 @@ const REDIS: readonly Action[] = ['work', 'status', 'retry', 'cancel', 'serve'];
 /**
  * Reads the arguments after `farm`.
  *
- * @param environment For `GLANZ_REDIS`.
+ * @param environment For `GLANZ_REDIS`, `AWS_ENDPOINT_URL_S3`, `AWS_ENDPOINT_URL` and `XDG_CACHE_HOME`.
  * @throws {CliError} `cli/usage`
  */
 export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEnv = process.env): FarmCommand {
@@ -98,6 +102,8 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
     redis: address,
     queue,
     store,
+    's3-endpoint': endpoint,
+    'store-cache': cache,
     split,
     lock,
     image,
@@ -131,7 +137,7 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
     quiet: given.quiet ?? false,
     redis,
     queue,
-    store: store ?? join('.', DEFAULT_STORE),
+    store: storeOf(store, endpoint, cache, environment),
     split: whole('split', split, 16, 2147483647),
     lock: whole('lock', lock, 1, 3600),
     images: image === undefined ? undefined : imagesOf(image),
@@ -148,6 +154,25 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
     gpus: given.gpu ?? [],
     values,
     warnings,
+  };
+}
+
+/** A folder, or a bucket with its server and a folder for what is downloaded. */
+function storeOf(
+  url = join('.', DEFAULT_STORE),
+  endpoint: string | undefined,
+  cache: string | undefined,
+  { AWS_ENDPOINT_URL_S3, AWS_ENDPOINT_URL, XDG_CACHE_HOME }: NodeJS.ProcessEnv,
+): StoreAddress {
+  if (!/^s3:/i.test(url)) {
+    const [name] = Object.entries({ 's3-endpoint': endpoint, 'store-cache': cache }).find(([, value]) => value) ?? [];
+    if (name !== undefined) throw usage(`--${name} is for a store in a bucket: --store s3://bucket/prefix.`);
+    return { url };
+  }
+  return {
+    url,
+    endpoint: endpoint ?? (AWS_ENDPOINT_URL_S3 || AWS_ENDPOINT_URL || undefined),
+    cache: cache ?? join(XDG_CACHE_HOME || join(homedir(), '.cache'), 'glanz', 'farm'),
   };
 }
 

@@ -1,5 +1,4 @@
-import { resolve } from 'node:path';
-import { farmMetrics, FolderStore, openFarmQueue, serveRenderer, type FarmQueue } from '@glanz/farm';
+import { farmMetrics, openFarmQueue, serveRenderer, type FarmQueue } from '@glanz/farm';
 import type { Backend } from '../../backend';
 import { EXIT } from '../../errors';
 import { farmRenderer } from '../../farm/job-renderer';
@@ -11,6 +10,7 @@ import { renderCommand } from '../render';
 import { writeManifest } from './manifest';
 import { writeTemplate } from './template';
 import { openPlan } from './open-plan';
+import { openStore } from './open-store';
 import { serveFarm } from './serve';
 import type { FarmCommand } from './parse';
 import { taskCommand } from './task';
@@ -33,9 +33,7 @@ export async function farmCommand(command: FarmCommand, io: CliIo, backend: Back
     case 'manifest':
       return writeManifest(command, await openPlan(command, io, backend, progress), io, progress);
     case 'clean': {
-      const { entries, bytes } = await new FolderStore(resolve(io.cwd, command.store)).clean(
-        command.olderThan as number,
-      );
+      const { entries, bytes } = await (await openStore(command, io)).clean(command.olderThan as number);
       report(command, io, { entries, bytes }, `${entries} entries deleted, ${(bytes / 1e6).toFixed(1)} MB`);
       return EXIT.ok;
     }
@@ -110,7 +108,7 @@ async function submit(
   const start = io.now();
   const plan = await openPlan(command, io, backend, progress);
   const total = await plan.check();
-  const store = new FolderStore(resolve(io.cwd, command.store));
+  const store = await openStore(command, io);
   return withQueue({ ...command, redis }, async (queue) => {
     for (const text of await queue.warnings()) progress.warning(text);
     let images = 0;
@@ -133,7 +131,7 @@ async function submit(
     report(
       command,
       io,
-      { version: version(), images, queued, finished, store: store.folder, totalMs: io.now() - start },
+      { version: version(), images, queued, finished, store: store.address.url, totalMs: io.now() - start },
       `${images} images: ${queued} jobs queued${finished > 0 ? `, ${finished} results there already` : ''}, in ${duration(io.now() - start)}`,
     );
     return EXIT.ok;

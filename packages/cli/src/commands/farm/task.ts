@@ -1,7 +1,6 @@
 import { rm } from 'node:fs/promises';
 import { hostname } from 'node:os';
-import { resolve } from 'node:path';
-import { FolderStore, type FarmJob, type FarmRequest, type JobRenderer, type JobResult } from '@glanz/farm';
+import type { FarmJob, FarmRequest, FarmStore, JobRenderer, JobResult } from '@glanz/farm';
 import type { Backend } from '../../backend';
 import { EXIT, EXIT_OF_INTERRUPT } from '../../errors';
 import { farmRenderer } from '../../farm/job-renderer';
@@ -11,6 +10,7 @@ import type { CliIo, Interrupt } from '../../io';
 import { usage } from '../../options';
 import type { ProgressReporter } from '../../progress';
 import { jsonLine, visible } from '../../visible';
+import { openStore } from './open-store';
 import type { FarmCommand } from './parse';
 
 /**
@@ -29,7 +29,7 @@ export async function taskCommand(
   const total = await plan.check();
   const beyond = images?.find((image) => typeof image === 'number' && image >= total);
   if (beyond !== undefined) throw usage(`--image ${beyond}: the batch has ${total} images, from 0 to ${total - 1}.`);
-  const store = new FolderStore(resolve(io.cwd, command.store));
+  const store = await openStore(command, io);
   const stop = new AbortController();
   let interrupted: Interrupt | undefined;
   const stopListening = io.onInterrupt((signal) => {
@@ -77,7 +77,7 @@ function jobsOf(requests: readonly FarmRequest[], merge: FarmJob | undefined, pa
 }
 
 async function renderInto(
-  store: FolderStore,
+  store: FarmStore,
   job: FarmJob,
   renderer: JobRenderer,
   signal: AbortSignal,
@@ -87,11 +87,14 @@ async function renderInto(
   const checkpoint = await store.checkpoint(job.id);
   try {
     const made = await renderer.render(
-      { type: 'job', job, store: store.folder, folder, checkpoint },
+      { type: 'job', job, store: store.address, folder, checkpoint },
       signal,
       () => undefined,
     );
-    if (!made) return undefined;
+    if (!made) {
+      await store.keepCheckpoint(job.id);
+      return undefined;
+    }
     await store.commit(
       folder,
       {
@@ -104,7 +107,7 @@ async function renderInto(
       },
       made.files,
     );
-    await rm(checkpoint, { force: true });
+    await store.dropCheckpoint(job.id);
     return await store.result(job.id);
   } finally {
     await rm(folder, { recursive: true, force: true });

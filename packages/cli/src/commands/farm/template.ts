@@ -1,5 +1,4 @@
 import { basename, dirname, resolve } from 'node:path';
-import { FolderStore } from '@glanz/farm';
 import type { Backend } from '../../backend';
 import { EXIT } from '../../errors';
 import { openJdTemplate } from '../../farm/openjd';
@@ -9,6 +8,7 @@ import { writeWhole } from '../../output/write';
 import type { ProgressReporter } from '../../progress';
 import { jsonLine, visible } from '../../visible';
 import { openPlan } from './open-plan';
+import { openStore } from './open-store';
 import type { FarmCommand } from './parse';
 
 /**
@@ -23,7 +23,7 @@ export async function writeTemplate(
 ): Promise<number> {
   const plan = await openPlan(command, io, backend, progress);
   await plan.check();
-  const store = new FolderStore(resolve(io.cwd, command.store));
+  const store = await openStore(command, io);
   const images: Pick<PlannedImage, 'shot' | 'requests'>[] = [];
   for await (const { shot, requests } of plan.images(store)) images.push({ shot, requests });
   const batch = resolve(io.cwd, command.args[0] as string);
@@ -31,7 +31,7 @@ export async function writeTemplate(
   const template = openJdTemplate(basename(batch), images, {
     folder: dirname(resolve(io.cwd, file)),
     batch,
-    store: store.folder,
+    store: store.address,
     outputRoot: plan.outputRoot,
     cwd: io.cwd,
     split: command.split,

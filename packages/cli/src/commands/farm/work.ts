@@ -1,7 +1,7 @@
 import { existsSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { FolderStore, startFarmWorker, type FarmWorker, type WorkerEvent } from '@glanz/farm';
+import { startFarmWorker, type FarmWorker, type WorkerEvent } from '@glanz/farm';
 import type { Backend } from '../../backend';
 import { EXIT } from '../../errors';
 import { chooseGpus } from '../../gpus/choose-gpus';
@@ -9,6 +9,7 @@ import { checkHiding, hiding } from '../../gpus/hidden-files';
 import type { CliIo } from '../../io';
 import type { ProgressReporter } from '../../progress';
 import { jsonLine } from '../../visible';
+import { openStore } from './open-store';
 import type { FarmCommand } from './parse';
 
 /** Milliseconds between two looks at whether the queue is empty. */
@@ -41,7 +42,8 @@ export async function workCommand(
   const { redis, queue, lock, outputRoot, untilEmpty, json } = command;
   const gpus = await chooseGpus(command.gpus, backend);
   for (const { hidden } of gpus) await checkHiding(hidden);
-  const store = new FolderStore(resolve(io.cwd, command.store));
+  const store = await openStore(command, io);
+  const isBucket = store.address.cache !== undefined;
   const counts = { done: 0, failed: 0 };
   let lastRedis = '';
   const onEvent = (event: WorkerEvent) => {
@@ -71,7 +73,8 @@ export async function workCommand(
             prefix: hiding(hidden),
           },
           gpu: label,
-          ...(outputRoot === undefined ? {} : { outputRoot: resolve(io.cwd, outputRoot) }),
+          // Machines that share a bucket need not share a folder.
+          outputRoot: outputRoot === undefined ? (isBucket ? false : undefined) : resolve(io.cwd, outputRoot),
           ...(lock === undefined ? {} : { lockMs: 1000 * lock, beatMs: Math.min(5000, 250 * lock) }),
           onEvent,
         }),
