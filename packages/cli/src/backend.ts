@@ -1,4 +1,5 @@
 import type { FilmLayer, FilmState, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
+import type { FilmSource } from '@glanz/renderer/film';
 import type { DenoiseQuality } from '@glanz/denoise/film';
 import type { CompressedFormat, Scene } from '@glanz/scene';
 import type { PoseOptions } from './options';
@@ -23,11 +24,12 @@ export type Tracer = Pick<
 
 /** Films on the CPU: as bytes for files, merged, as layers of an image. */
 export interface FilmCodec {
-  readonly encode: (state: FilmState) => Uint8Array;
+  /** The bytes, one piece after another. @param withBeauty Whether the layer `beauty` is among them. Default: true. */
+  readonly encode: (state: FilmState, withBeauty?: boolean) => readonly Uint8Array<ArrayBuffer>[];
   /** @throws {RenderError} `renderer/film-state` */
   readonly decode: (bytes: Uint8Array) => FilmState;
   /** @throws {RenderError} `renderer/film-state` */
-  readonly merge: (films: readonly FilmState[]) => FilmState;
+  readonly merge: (films: readonly FilmSource[]) => Promise<FilmState>;
   readonly layer: (film: FilmState, layer: 'beauty' | 'variance') => Float32Array;
 }
 
@@ -77,7 +79,7 @@ export interface Backend {
   createDenoiser(device: GPUDevice, quality: DenoiseQuality, signal: AbortSignal): Promise<ImageDenoiser>;
 }
 
-export type { DenoiseQuality, FilmLayer, FilmState, ImageDenoiser, PathTracerOptions, RenderStatistics };
+export type { DenoiseQuality, FilmLayer, FilmSource, FilmState, ImageDenoiser, PathTracerOptions, RenderStatistics };
 
 /** The renderer on Dawn, the loaders with sharp. */
 export function nodeBackend(): Backend {
@@ -122,9 +124,9 @@ export function nodeBackend(): Backend {
     async filmCodec() {
       const film = await import('@glanz/renderer/film');
       return {
-        encode: film.encodeFilmState,
+        encode: film.encodeFilmPieces,
         decode: film.decodeFilmState,
-        merge: film.mergeFilmStates,
+        merge: film.mergeFilmSources,
         layer: film.readFilmState,
       };
     },

@@ -75,8 +75,9 @@ const COMMANDS = {
                         again, copies them; work copies them with --output-root.
       --s3-endpoint URL Another server of S3's protocol. Default:
                         AWS_ENDPOINT_URL_S3 or AWS_ENDPOINT_URL.
-      --store-cache DIR What was downloaded of the bucket. Default: glanz/farm in
-                        XDG_CACHE_HOME or ~/.cache.
+      --store-cache DIR A folder of this machine for what it has downloaded of
+                        the bucket. Default: glanz/farm in XDG_CACHE_HOME or
+                        ~/.cache.
       --output-root DIR submit: the folder below which all files are written.
                         Default: that of the batch. work: the same folder where
                         this machine sees it under another name.

@@ -1,4 +1,4 @@
-import { mergeFilmStates, readFilmState } from '@glanz/renderer/film';
+import { mergeFilmSources, readFilmState } from '@glanz/renderer/film';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -231,9 +231,9 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         destroy: () => void destroyed.push('denoiser'),
       }),
       filmCodec: async () => ({
-        encode: ({ samples, width, height }) => new TextEncoder().encode(JSON.stringify([samples, width, height])),
+        encode: ({ samples, width, height }) => [new TextEncoder().encode(JSON.stringify([samples, width, height]))],
         decode: (bytes) => filmOf(...(JSON.parse(new TextDecoder().decode(bytes)) as [number, number, number])),
-        merge: mergeFilmStates,
+        merge: mergeFilmSources,
         layer: readFilmState,
       }),
     },

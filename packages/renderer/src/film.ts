@@ -1,4 +1,5 @@
-export { decodeFilmState, encodeFilmState } from './film/film-codec';
+export { decodeFilmState, encodeFilmPieces, encodeFilmState } from './film/film-codec';
 export type { FilmPart, FilmState } from './film/film-state';
 export { mergeFilmStates } from './film/merge';
+export { mergeFilmSources, type FilmSource } from './film/merge-sources';
 export { readFilmState } from './film/compose';

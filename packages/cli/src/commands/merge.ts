@@ -83,7 +83,7 @@ export async function mergeCommand(
   const { film, settings } = await readFilms(paths, io.cwd, backend);
   const [first] = film.ranges[0] as readonly [number, number];
   const transparent = settings['--transparent'] === 'true' || settings['--background'] === 'transparent';
-  const image = await imageOfFilm(film, backend);
+  const image = await imageOfFilm(film, outputs, backend);
   const files: WrittenFile[] = [];
   for (const target of outputs) {
     if (isImage(target)) files.push(await writeImage(image, target, { ...display, transparent }, io.cwd));

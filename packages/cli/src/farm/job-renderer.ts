@@ -126,7 +126,7 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     { options, outputs }: Shot,
     parts: number,
   ) {
-    const image = outputs.some(isImage) ? await imageOfFilm(film, backend) : undefined;
+    const image = outputs.some(isImage) ? await imageOfFilm(film, outputs, backend) : undefined;
     const display = { ...options, transparent: options.settings.background === 'transparent' };
     const codec = () => backend.filmCodec();
     for (const target of outputs) {

@@ -1,4 +1,4 @@
-import { access, constants, open, rename, rm, stat } from 'node:fs/promises';
+import { access, constants, open, rename, rm, stat, type FileHandle } from 'node:fs/promises';
 import { dirname, resolve } from 'node:path';
 import { encodeHdr } from '@glanz/image/hdr';
 import { CliError } from '../errors';
@@ -74,14 +74,14 @@ export function encodeImage(image: RenderedImage, target: ImageTarget, display: 
  * Writes a file that appears whole or not at all.
  *
  * @param path Relative to `cwd`, or absolute.
- * @param parts One after the other.
+ * @param parts One after the other; or writes them to the open file.
  * @param sync Whether the bytes are on the disk before the file appears, so that it survives a power failure.
  * @throws {CliError} `cli/output`
  */
 export async function writeWhole(
   path: string,
   cwd: string,
-  parts: readonly Uint8Array[],
+  parts: readonly Uint8Array[] | ((handle: FileHandle) => Promise<void>),
   { sync = false } = {},
 ): Promise<void> {
   const file = resolve(cwd, path);
@@ -90,7 +90,8 @@ export async function writeWhole(
     // Not through a link in its place.
     const handle = await open(partial, REPLACE);
     try {
-      for (const part of parts) await handle.writeFile(part);
+      if (typeof parts === 'function') await parts(handle);
+      else for (const part of parts) await handle.writeFile(part);
       if (sync) await handle.sync();
     } finally {
       await handle.close();

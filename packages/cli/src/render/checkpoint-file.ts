@@ -9,7 +9,7 @@ import { CliError } from '../errors';
 import { version } from '../version';
 import type { FilmCodec, FilmState } from '../backend';
 import { FLAG_OPTIONS, flagOf } from '../render-flags';
-import { readFilmFile, settingDifferences, writeFilmFile } from './film-file';
+import { readFilmFile, settingDifferences, writeFilmFile, type FilmFileOptions } from './film-file';
 import type { Shot } from './shots';
 
 const hashOf = async (file: string): Promise<string> => {
@@ -100,9 +100,18 @@ export class CheckpointFile {
     return read?.film;
   }
 
-  /** Replaces the file; it is whole at any time. Gives its bytes. @throws {CliError} `cli/output` */
-  async write(state: FilmState, codec: () => Promise<FilmCodec>): Promise<number> {
-    return writeFilmFile(this.path, this.#cwd, state, await this.#ownSettings(), codec);
+  /**
+   * Replaces the file; it is whole at any time. Gives its bytes.
+   *
+   * @param options Default: it survives a power failure.
+   * @throws {CliError} `cli/output`
+   */
+  async write(
+    state: FilmState,
+    codec: () => Promise<FilmCodec>,
+    options: FilmFileOptions = { sync: true },
+  ): Promise<number> {
+    return writeFilmFile(this.path, this.#cwd, state, await this.#ownSettings(), codec, options);
   }
 
   /** The image is finished. */

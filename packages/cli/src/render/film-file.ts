@@ -1,7 +1,8 @@
 import { createHash } from 'node:crypto';
-import { open, stat } from 'node:fs/promises';
-import type { FilmCodec, FilmState } from '../backend';
+import { open, stat, type FileHandle } from 'node:fs/promises';
+import type { FilmCodec, FilmSource, FilmState } from '../backend';
 import { writeWhole } from '../output/write';
+import { hashRange } from './hash-range';
 
 /** The first line of a film file; a line of JSON follows, and then the film. */
 const FIRST_LINE = 'GLANZ CHECKPOINT 1\n';
@@ -18,14 +19,11 @@ export interface FilmFileHeader {
   readonly sha256: string;
 }
 
-/** Bytes that `update` takes at once: it refuses 2 GiB, which a film of two light groups has at 7680 × 4320. */
-const HASHED_AT_ONCE = 2 ** 30;
-
-function sha256Of(bytes: Uint8Array): string {
-  const hash = createHash('sha256');
-  for (let at = 0; at < bytes.length; at += HASHED_AT_ONCE) hash.update(bytes.subarray(at, at + HASHED_AT_ONCE));
-  return hash.digest('hex');
-}
+/** Bytes that are hashed while the ones before them are written. */
+const PIECE_BYTES = 2 ** 23;
+/** Bytes that one call reads. */
+const READ_BYTES = 2 ** 30;
+const NO_HASH = '0'.repeat(64);
 
 /** How the reader of a film file reports what is wrong with it. */
 export interface FilmFileErrors {
@@ -35,19 +33,28 @@ export interface FilmFileErrors {
   readonly broken: (why: string, cause?: unknown) => Error;
 }
 
+/** A film file that is open. */
+export interface OpenFilmFile {
+  readonly header: FilmFileHeader;
+  /** Its film, for `FilmCodec.merge`. */
+  readonly source: FilmSource;
+  /** Reads all of it. @throws what `broken` makes, if the film is not the one that was written */
+  checkContent(): Promise<void>;
+  close(): Promise<void>;
+}
+
 /**
- * Reads a film file: a checkpoint, or an output that ends in `.film`.
+ * Opens a film file: a checkpoint, or an output that ends in `.film`.
  *
  * @param file Absolute path.
  * @param check Throws if the film is not the one wanted, before the film itself is read.
  * @returns `undefined` if there is no such file.
  */
-export async function readFilmFile(
+export async function openFilmFile(
   file: string,
-  codec: () => Promise<FilmCodec>,
   { foreign, broken }: FilmFileErrors,
   check: (header: FilmFileHeader) => void | Promise<void> = () => undefined,
-): Promise<{ readonly header: FilmFileHeader; readonly film: FilmState } | undefined> {
+): Promise<OpenFilmFile | undefined> {
   const found = await stat(file).catch((cause: NodeJS.ErrnoException) => {
     if (cause.code === 'ENOENT') return undefined;
     throw broken(cause.message, cause);
@@ -67,26 +74,65 @@ export async function readFilmFile(
     if (end === 0 || !header) throw broken('its header is damaged');
     await check(header);
     if (found.size !== end + header.bytes) throw broken(`it has ${found.size} bytes instead of ${end + header.bytes}`);
+    const checkContent = async () => {
+      if ((await hashRange(file, end, header.bytes)) !== header.sha256) throw broken('its content is damaged');
+    };
+    const source: FilmSource = {
+      bytes: header.bytes,
+      async read(target, position) {
+        for (let at = 0; at < target.length;) {
+          const count = Math.min(READ_BYTES, target.length - at);
+          const { bytesRead } = await handle.read(target, at, count, end + position + at);
+          if (bytesRead === 0) throw broken('it ends early');
+          at += bytesRead;
+        }
+      },
+      async onError(cause) {
+        const isOld = (cause as { code?: unknown }).code === 'renderer/film-state';
+        return isOld ? broken('its film is of another version', cause) : cause;
+      },
+    };
+    return { header, source, checkContent, close: () => handle.close() };
+  } catch (error) {
+    await handle.close();
+    throw error;
+  }
+}
+
+/** Reads a film file as a whole; see {@link openFilmFile}. */
+export async function readFilmFile(
+  file: string,
+  codec: () => Promise<FilmCodec>,
+  errors: FilmFileErrors,
+  check?: (header: FilmFileHeader) => void | Promise<void>,
+): Promise<{ readonly header: FilmFileHeader; readonly film: FilmState } | undefined> {
+  const opened = await openFilmFile(file, errors, check);
+  if (!opened) return undefined;
+  const { header, source, checkContent } = opened;
+  try {
     const bytes = new Uint8Array(header.bytes);
-    for (let at = 0; at < bytes.length;) {
-      const { bytesRead } = await handle.read(bytes, at, Math.min(2 ** 30, bytes.length - at), end + at);
-      if (bytesRead === 0) throw broken('it ends early');
-      at += bytesRead;
-    }
-    if (sha256Of(bytes) !== header.sha256) throw broken('its content is damaged');
+    await Promise.all([source.read(bytes, 0), checkContent()]);
     const { decode } = await codec();
     try {
       return { header, film: decode(bytes) };
     } catch (cause) {
-      throw broken('its film is of another version', cause);
+      throw errors.broken('its film is of another version', cause);
     }
   } finally {
-    await handle.close();
+    await opened.close();
   }
 }
 
+/** How {@link writeFilmFile} writes. */
+export interface FilmFileOptions {
+  /** Whether it survives a power failure. Default: false. */
+  readonly sync?: boolean;
+  /** Whether it holds the layer `beauty`, which merging makes again. Default: true. */
+  readonly withBeauty?: boolean;
+}
+
 /**
- * Writes a film file, which appears whole or not at all, and survives a power failure.
+ * Writes a film file, which appears whole or not at all.
  *
  * @param path Relative to `cwd`, or absolute.
  * @returns The number of bytes.
@@ -98,17 +144,36 @@ export async function writeFilmFile(
   state: FilmState,
   settings: FilmFileHeader['settings'],
   codec: () => Promise<FilmCodec>,
+  { sync = false, withBeauty = true }: FilmFileOptions = {},
 ): Promise<number> {
-  const film = (await codec()).encode(state);
-  const header: FilmFileHeader = {
-    settings,
-    samples: state.samples,
-    bytes: film.length,
-    sha256: sha256Of(film),
+  const pieces = (await codec()).encode(state, withBeauty);
+  const bytes = pieces.reduce((sum, { length }) => sum + length, 0);
+  const linesOf = (sha256: string) =>
+    new TextEncoder().encode(
+      `${FIRST_LINE}${JSON.stringify({ settings, samples: state.samples, bytes, sha256 } satisfies FilmFileHeader)}\n`,
+    );
+  const start = linesOf(NO_HASH).length;
+  const write = async (handle: FileHandle) => {
+    const hash = createHash('sha256');
+    let at = start;
+    for (const piece of pieces)
+      for (let from = 0; from < piece.length; from += PIECE_BYTES) {
+        const part = piece.subarray(from, from + PIECE_BYTES);
+        const written = writeAt(handle, part, at);
+        hash.update(part);
+        await written;
+        at += part.length;
+      }
+    // It is as long as the one without the hash.
+    await writeAt(handle, linesOf(hash.digest('hex')), 0);
   };
-  const lines = new TextEncoder().encode(`${FIRST_LINE}${JSON.stringify(header)}\n`);
-  await writeWhole(path, cwd, [lines, film], { sync: true });
-  return lines.length + film.length;
+  await writeWhole(path, cwd, write, { sync });
+  return start + bytes;
+}
+
+async function writeAt(handle: FileHandle, bytes: Uint8Array, position: number): Promise<void> {
+  for (let at = 0; at < bytes.length;)
+    at += (await handle.write(bytes, at, bytes.length - at, position + at)).bytesWritten;
 }
 
 function parseHeader(text: string): FilmFileHeader | undefined {

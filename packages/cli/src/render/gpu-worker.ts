@@ -266,10 +266,8 @@ export class GpuWorker {
 
   async #writeFilm(film: FilmState, { path, format, bits }: OutputTarget, shot: Shot): Promise<WrittenFile> {
     const { io, backend } = this.#context;
-    const { sums } = film;
-    // Zeros take no bytes.
-    const written = shot.isPart ? { ...film, sums: { ...sums, beauty: new Float32Array(sums.beauty.length) } } : film;
-    const bytes = await new CheckpointFile(path, shot, io.cwd).write(written, () => backend.filmCodec());
+    const file = new CheckpointFile(path, shot, io.cwd);
+    const bytes = await file.write(film, () => backend.filmCodec(), { withBeauty: !shot.isPart });
     return { path, format, bits, bytes };
   }
 

@@ -1,9 +1,10 @@
 import { resolve } from 'node:path';
 import type { Backend, FilmState } from '../backend';
 import { CliError } from '../errors';
+import type { OutputTarget } from '../output/formats';
 import type { RenderedImage } from '../output/image';
 import { version } from '../version';
-import { readFilmFile, settingDifferences, type FilmFileHeader } from './film-file';
+import { openFilmFile, settingDifferences, type FilmFileHeader, type OpenFilmFile } from './film-file';
 
 /** The setting in which films to be merged may differ. */
 export const SAMPLES_FROM = '--samples-from';
@@ -22,42 +23,56 @@ export async function readFilms(
 ): Promise<{ readonly film: FilmState; readonly settings: FilmFileHeader['settings'] }> {
   const codec = () => backend.filmCodec();
   let settings: FilmFileHeader['settings'] = {};
-  const films: FilmState[] = [];
-  for (const path of paths) {
-    const wrong = (message: string, cause?: unknown) =>
-      new CliError('cli/film', message, { cause, location: { file: path } });
-    const foreign = () => wrong(`"${path}" is not a film of glanz. Films are written by glanz render -o FILE.film.`);
-    const read = await readFilmFile(
-      resolve(cwd, path),
-      codec,
-      { foreign, broken: (why, cause) => wrong(`"${path}" cannot be merged: ${why}. Render it again.`, cause) },
-      (header) => {
-        if (films.length === 0) settings = header.settings;
-        const differing = settingDifferences(
-          { ...header.settings, [SAMPLES_FROM]: settings[SAMPLES_FROM] as string },
-          settings,
-          `in "${paths[0]}"`,
-        );
-        if (differing.length > 0)
-          throw wrong(
-            `"${path}" cannot be merged with "${paths[0]}": ${differing.join('; ')}. Films to be merged differ in --samples-from and --samples alone.`,
+  const files: OpenFilmFile[] = [];
+  try {
+    for (const path of paths) {
+      const wrong = (message: string, cause?: unknown) =>
+        new CliError('cli/film', message, { cause, location: { file: path } });
+      const foreign = () => wrong(`"${path}" is not a film of glanz. Films are written by glanz render -o FILE.film.`);
+      const opened = await openFilmFile(
+        resolve(cwd, path),
+        { foreign, broken: (why, cause) => wrong(`"${path}" cannot be merged: ${why}. Render it again.`, cause) },
+        (header) => {
+          if (files.length === 0) settings = header.settings;
+          const differing = settingDifferences(
+            { ...header.settings, [SAMPLES_FROM]: settings[SAMPLES_FROM] as string },
+            settings,
+            `in "${paths[0]}"`,
           );
-      },
-    );
-    if (!read) throw foreign();
-    films.push(read.film);
+          if (differing.length > 0)
+            throw wrong(
+              `"${path}" cannot be merged with "${paths[0]}": ${differing.join('; ')}. Films to be merged differ in --samples-from and --samples alone.`,
+            );
+        },
+      );
+      if (!opened) throw foreign();
+      files.push(opened);
+    }
+    const { merge } = await codec();
+    const [film, ...contents] = await Promise.allSettled([
+      merge(files.map(({ source }) => source)),
+      ...files.map(({ checkContent }) => checkContent()),
+    ]);
+    // What a damaged film says of itself does not count.
+    for (const end of [...contents, film]) if (end.status === 'rejected') throw end.reason;
+    return { film: (film as PromiseFulfilledResult<FilmState>).value, settings };
+  } finally {
+    for (const { close } of files) await close();
   }
-  return { film: (await codec()).merge(films), settings };
 }
 
-/** The image of a film: its beauty and its variance. */
-export async function imageOfFilm(film: FilmState, backend: Backend): Promise<RenderedImage> {
+/** The image of a film: its beauty, and its variance where an output has it. */
+export async function imageOfFilm(
+  film: FilmState,
+  outputs: readonly OutputTarget[],
+  backend: Backend,
+): Promise<RenderedImage> {
   const { layer } = await backend.filmCodec();
   return {
     width: film.width,
     height: film.height,
     beauty: layer(film, 'beauty'),
-    layers: { variance: layer(film, 'variance') },
+    ...(outputs.some(({ format }) => format === 'exr') ? { layers: { variance: layer(film, 'variance') } } : {}),
     samples: film.samples,
     software: `Glanz ${version()}`,
   };

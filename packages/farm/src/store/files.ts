@@ -8,7 +8,7 @@ import { FarmError } from '../error';
 /** The SHA-256 of a file, hexadecimal. */
 export async function hashFile(file: string): Promise<string> {
   const hash = createHash('sha256');
-  await pipeline(createReadStream(file), hash);
+  await pipeline(createReadStream(file, { highWaterMark: 2 ** 21 }), hash);
   return hash.digest('hex');
 }
 

@@ -30,14 +30,21 @@ function composeBeauty({ width, height, lightPasses, weights: { last }, sums }: 
   const { film_total: total, film_block: block, film_moment: moment } = sums;
   if (lightPasses === groups) {
     // Without catchers, and without objects for each pixel: films have tens of millions.
-    for (let i = 0; i < stride; i++) {
-      const count = moment[i | 3] as number;
+    const weights = Float64Array.from(last.flatMap((weight) => [...weight, 1]));
+    for (let i = 0; i < stride; i += 4) {
+      const count = moment[i + 3] as number;
       if (count === 0) continue;
-      const c = i & 3;
-      let sum = 0;
-      for (let pass = 0, j = i; pass < groups; pass++, j += stride)
-        sum += (c < 3 ? (last[pass]?.[c] as number) : 1) * ((total[j] as number) + (block[j] as number));
-      out[i] = sum / count;
+      let [r, g, b, a] = [0, 0, 0, 0];
+      for (let w = 0, j = i; w < weights.length; w += 4, j += stride) {
+        r += (weights[w] as number) * ((total[j] as number) + (block[j] as number));
+        g += (weights[w + 1] as number) * ((total[j + 1] as number) + (block[j + 1] as number));
+        b += (weights[w + 2] as number) * ((total[j + 2] as number) + (block[j + 2] as number));
+        a += (weights[w + 3] as number) * ((total[j + 3] as number) + (block[j + 3] as number));
+      }
+      out[i] = r / count;
+      out[i + 1] = g / count;
+      out[i + 2] = b / count;
+      out[i + 3] = a / count;
     }
     return out;
   }

@@ -6,12 +6,14 @@ import { FILM_SUMS, type FilmPart, type FilmState } from './film-state';
 const MAGIC = 0x465a4c47;
 const VERSION = 4;
 /** Magic, version, length of the JSON, checksum of all that follows. */
-const HEADER_BYTES = 16;
+export const HEADER_BYTES = 16;
 
-const broken = (what: string) =>
+/** @param what Why bytes are no film. */
+export const broken = (what: string) =>
   new RenderError('renderer/film-state', `These bytes are no film that can be resumed: ${what}. Render it again.`);
 
-type Head = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
+/** What the line of JSON in an encoded film says. */
+export type FilmHead = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
   readonly parts: readonly number[];
   /** Sums that are 0 everywhere, which are left out: `film_block` after whole chunks, for one. */
   readonly zero: readonly (typeof FILM_SUMS)[number][];
@@ -22,10 +24,13 @@ type Head = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
   readonly tiles: number;
 };
 
-/** FNV-1a over 32-bit words: each step is a bijection, so no change of a single word goes unnoticed. */
-function checksum(bytes: Uint8Array<ArrayBuffer>): number {
-  const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength >>> 2);
-  let hash = 0x811c9dc5;
+/**
+ * FNV-1a over 32-bit words: each step is a bijection, so no change of a single word goes unnoticed.
+ *
+ * @param hash Of the bytes before these.
+ */
+export function checksum({ buffer, byteOffset, byteLength }: ArrayBufferView<ArrayBuffer>, hash = 0x811c9dc5): number {
+  const words = new Uint32Array(buffer, byteOffset, byteLength >>> 2);
   for (let i = 0; i < words.length; i++) hash = Math.imul(hash ^ (words[i] as number), 0x01000193);
   return hash >>> 0;
 }
@@ -33,7 +38,21 @@ function checksum(bytes: Uint8Array<ArrayBuffer>): number {
 /** Whether all words are 0; -0 is something else. */
 function isZero({ buffer, byteOffset, length }: Float32Array<ArrayBuffer>): boolean {
   const words = new Uint32Array(buffer, byteOffset, length);
-  for (let i = 0; i < length; i++) if (words[i] !== 0) return false;
+  let i = 0;
+  for (const end = length - 7; i < end; i += 8)
+    if (
+      ((words[i] as number) |
+        (words[i + 1] as number) |
+        (words[i + 2] as number) |
+        (words[i + 3] as number) |
+        (words[i + 4] as number) |
+        (words[i + 5] as number) |
+        (words[i + 6] as number) |
+        (words[i + 7] as number)) !==
+      0
+    )
+      return false;
+  for (; i < length; i++) if (words[i] !== 0) return false;
   return true;
 }
 
@@ -42,10 +61,26 @@ function isZero({ buffer, byteOffset, length }: Float32Array<ArrayBuffer>): bool
  * `32 × lightPasses + 32` bytes a pixel; sums that are 0 everywhere take none). Little-endian; for this version of Glanz.
  */
 export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
+  const pieces = encodeFilmPieces(state);
+  const bytes = new Uint8Array(pieces.reduce((sum, { length }) => sum + length, 0));
+  let at = 0;
+  for (const piece of pieces) {
+    bytes.set(piece, at);
+    at += piece.length;
+  }
+  return bytes;
+}
+
+/**
+ * The bytes of {@link encodeFilmState}, one piece after another, for writers of large files: the sums are not copied.
+ *
+ * @param withBeauty Whether it holds the layer `beauty`, which merging makes of the sums. Default: true.
+ */
+export function encodeFilmPieces(state: FilmState, withBeauty = true): Uint8Array<ArrayBuffer>[] {
   const { sampling, sums, parts: partial, ...rest } = state;
   const { counts, tiles, sample, pixel, until } = sampling;
-  const zero = FILM_SUMS.filter((name) => isZero(sums[name]));
-  const head: Head = {
+  const zero = FILM_SUMS.filter((name) => (name === 'beauty' && !withBeauty) || isZero(sums[name]));
+  const head: FilmHead = {
     ...rest,
     parts: partial.map(({ chunk }) => chunk),
     zero,
@@ -58,24 +93,47 @@ export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
   const text = new TextEncoder().encode(JSON.stringify(head));
   // What follows begins at a multiple of four bytes.
   const textBytes = 4 * Math.ceil(text.length / 4);
-  const parts = [
-    counts,
-    ...(tiles ? [tiles] : []),
-    ...FILM_SUMS.filter((name) => !zero.includes(name)).map((name) => sums[name]),
-    ...partial.map((part) => part.sums),
+  const first = new Uint8Array(HEADER_BYTES + textBytes);
+  first.fill(0x20, HEADER_BYTES);
+  first.set(text, HEADER_BYTES);
+  const pieces = [
+    first,
+    ...[
+      counts,
+      ...(tiles ? [tiles] : []),
+      ...FILM_SUMS.filter((name) => !zero.includes(name)).map((name) => sums[name]),
+      ...partial.map((part) => part.sums),
+    ].map(({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength)),
   ];
-  const bytes = new Uint8Array(parts.reduce((sum, part) => sum + part.byteLength, HEADER_BYTES + textBytes));
-  const view = new DataView(bytes.buffer);
-  [MAGIC, VERSION, textBytes].forEach((word, i) => view.setUint32(4 * i, word, true));
-  bytes.fill(0x20, HEADER_BYTES, HEADER_BYTES + textBytes);
-  bytes.set(text, HEADER_BYTES);
-  let at = HEADER_BYTES + textBytes;
-  for (const part of parts) {
-    bytes.set(new Uint8Array(part.buffer, part.byteOffset, part.byteLength), at);
-    at += part.byteLength;
-  }
-  view.setUint32(12, checksum(bytes.subarray(HEADER_BYTES)), true);
-  return bytes;
+  const hash = pieces.reduce(
+    (sum, piece, i) => checksum(i === 0 ? piece.subarray(HEADER_BYTES) : piece, sum),
+    checksum(new Uint8Array(0)),
+  );
+  const view = new DataView(first.buffer);
+  [MAGIC, VERSION, textBytes, hash].forEach((word, i) => view.setUint32(4 * i, word, true));
+  return pieces;
+}
+
+export const DAMAGED = 'they are damaged or cut off: their checksum is another one';
+
+/** The first {@link HEADER_BYTES} of an encoded film: bytes of its JSON, and the checksum of all that follows. */
+export function readHeader(bytes: Uint8Array): { readonly textBytes: number; readonly hash: number } {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (bytes.length < HEADER_BYTES || view.getUint32(0, true) !== MAGIC) throw broken('they do not begin as one');
+  if (view.getUint32(4, true) !== VERSION)
+    throw broken(`they are of version ${view.getUint32(4, true)}, and this is version ${VERSION}`);
+  return { textBytes: view.getUint32(8, true), hash: view.getUint32(12, true) };
+}
+
+/** @param at Where the numbers begin. @param bytes Of the film. */
+export function checkLength(head: FilmHead, at: number, bytes: number): void {
+  const lengths = sumLengths(head);
+  const words =
+    head.counts +
+    Math.max(0, head.tiles) +
+    FILM_SUMS.reduce((sum, name) => sum + (head.zero.includes(name) ? 0 : lengths[name]), 0) +
+    head.parts.length * lengths.film_total;
+  if (bytes !== at + 4 * words) throw broken(`they are ${bytes} bytes, and such a film takes ${at + 4 * words}`);
 }
 
 /**
@@ -83,25 +141,14 @@ export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
  * @throws {RenderError} `renderer/film-state` for bytes that are no film, cut off, damaged, or of another version.
  */
 export function decodeFilmState(bytes: Uint8Array): FilmState {
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length < HEADER_BYTES || view.getUint32(0, true) !== MAGIC) throw broken('they do not begin as one');
-  if (view.getUint32(4, true) !== VERSION)
-    throw broken(`they are of version ${view.getUint32(4, true)}, and this is version ${VERSION}`);
+  const { textBytes, hash } = readHeader(bytes);
   // A copy if the words are not aligned in the caller's buffer.
   const body = (bytes.byteOffset % 4 === 0 ? bytes : bytes.slice()).subarray(HEADER_BYTES) as Uint8Array<ArrayBuffer>;
-  if (bytes.length % 4 !== 0 || checksum(body) !== view.getUint32(12, true))
-    throw broken('they are damaged or cut off: their checksum is another one');
-  const textBytes = view.getUint32(8, true);
+  if (bytes.length % 4 !== 0 || checksum(body) !== hash) throw broken(DAMAGED);
   const head = readHead(bytes.subarray(HEADER_BYTES, HEADER_BYTES + textBytes));
   const lengths = sumLengths(head);
-  const words =
-    head.counts +
-    Math.max(0, head.tiles) +
-    FILM_SUMS.reduce((sum, name) => sum + (head.zero.includes(name) ? 0 : lengths[name]), 0) +
-    head.parts.length * lengths.film_total;
   let at = HEADER_BYTES + textBytes;
-  if (bytes.length !== at + 4 * words)
-    throw broken(`they are ${bytes.length} bytes, and such a film takes ${at + 4 * words}`);
+  checkLength(head, at, bytes.length);
   const next = (length: number) => {
     const part = bytes.slice(at, at + 4 * length).buffer as ArrayBuffer;
     at += 4 * length;
@@ -148,10 +195,11 @@ const isRanges = (value: unknown) =>
       isWhole(range[1], (range[0] as number) + (i === 0 ? 0 : 1)),
   );
 
-function readHead(text: Uint8Array): Head {
-  let head: Head;
+/** The line of JSON. @throws {RenderError} `renderer/film-state` */
+export function readHead(text: Uint8Array): FilmHead {
+  let head: FilmHead;
   try {
-    head = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as Head;
+    head = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text)) as FilmHead;
   } catch (cause) {
     throw new RenderError('renderer/film-state', 'The header of this film cannot be read. Render it again.', { cause });
   }

@@ -5,7 +5,8 @@ import { rangesText, sumLengths } from './film-check';
 import { FILM_SUMS, type FilmPart, type FilmState } from './film-state';
 import type { GroupWeights } from './layers';
 
-const refuse = (why: string) => new RenderError('renderer/film-state', `These films cannot be merged: ${why}.`);
+/** @param why Films cannot be merged. */
+export const refuse = (why: string) => new RenderError('renderer/film-state', `These films cannot be merged: ${why}.`);
 
 /**
  * Adds up films of the same image with different samples, such as 0–49 and 50–99, which several processes, machines or
@@ -54,13 +55,7 @@ export function mergeFilmStates(films: readonly FilmState[]): FilmState {
     ranges,
     badSamples: sorted.reduce((sum, { badSamples }) => sum + badSamples, 0),
     parts,
-    sampling: {
-      counts: new Uint32Array(model.sampling.counts.length).fill(end),
-      tiles: undefined,
-      sample: end,
-      pixel: 0,
-      until: 0,
-    },
+    sampling: samplingTo(end, model.sampling.counts.length),
     sums: {
       // Not `Float32Array.from`, which takes fifty times as long for large films.
       film_block: block ? new Float32Array(block) : new Float32Array(total.length),
@@ -72,22 +67,39 @@ export function mergeFilmStates(films: readonly FilmState[]): FilmState {
   return { ...merged, sums: { ...merged.sums, beauty: readFilmState(merged, 'beauty') } };
 }
 
-/** A film whose pixels all have the same samples. */
-function checked(film: FilmState): FilmState {
-  const { sampling } = film;
+/** The sampling of a film with all samples to an end. @param tiles Numbers of its sampling's counts. */
+export const samplingTo = (end: number, tiles: number): FilmState['sampling'] => ({
+  counts: new Uint32Array(tiles).fill(end),
+  tiles: undefined,
+  sample: end,
+  pixel: 0,
+  until: 0,
+});
+
+type Sampling = Pick<FilmState['sampling'], 'pixel' | 'sample'> & { readonly tiles: unknown };
+
+/** That all pixels of a film have the same samples. @throws {RenderError} `renderer/film-state` */
+export function checkSampling(sampling: Sampling): void {
   if (sampling.pixel > 0)
     throw refuse(
       `one was saved in the middle of sample ${sampling.sample}; save it when render() has ended, or resume it first`,
     );
   if (sampling.tiles)
     throw refuse('one was rendered to a noise target, so its pixels have different numbers of samples');
+}
+
+function checked(film: FilmState): FilmState {
+  checkSampling(film.sampling);
   const lengths = sumLengths(film);
   if (FILM_SUMS.some((name) => film.sums[name].length !== lengths[name]))
     throw refuse('the sums of one do not have its size');
   return film;
 }
 
-function checkSame(film: FilmState, model: FilmState): void {
+type Settings = Pick<FilmState, 'width' | 'height' | 'fingerprint' | 'lightPasses' | 'weights'>;
+
+/** That a film is of the same image as another. @throws {RenderError} `renderer/film-state` */
+export function checkSame(film: Settings, model: Settings): void {
   if (film.width !== model.width || film.height !== model.height)
     throw refuse(`one has ${model.width} × ${model.height} pixels, another ${film.width} × ${film.height}`);
   if (film.fingerprint !== model.fingerprint || film.lightPasses !== model.lightPasses)
@@ -96,8 +108,8 @@ function checkSame(film: FilmState, model: FilmState): void {
     throw refuse('their light groups are not set alike; set them alike before saveFilm(), or after merging');
 }
 
-/** All samples of the films. */
-function union(films: readonly FilmState[]): SampleRanges {
+/** All samples of the films. @throws {RenderError} `renderer/film-state` if two have the same */
+export function union(films: readonly Pick<FilmState, 'ranges'>[]): SampleRanges {
   const all = films.flatMap(({ ranges }) => ranges).sort((a, b) => a[0] - b[0]);
   const out: [number, number][] = [];
   for (const [first, end] of all) {
