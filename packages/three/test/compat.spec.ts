@@ -1,13 +1,17 @@
 import { fileURLToPath } from 'node:url';
-import { photograph, servePage, watch, type Served } from '@glanz/browser';
+import { injectFaults, photograph, servePage, watch, type Served } from '@glanz/browser';
 import { expect, test } from '@playwright/test';
-import type { WebGLPathTracer } from '@glanz/three/compat';
+import type { WebGLPathTracer, WebGPUPathTracer } from '@glanz/three/compat';
 import type { PerspectiveCamera, Scene } from 'three';
 
 interface TestWindow {
   start: (name: string) => boolean;
   state: () => { samples: number; film: number; isCompiling: boolean; error?: string };
   running: () => { pathTracer: WebGLPathTracer; scene: Scene; camera: PerspectiveCamera };
+  loseGpu: () => void;
+  startWebGpu: () => Promise<number>;
+  pathTracer: WebGPUPathTracer;
+  drawn: { readonly rasterised: number; readonly pathTraced: number };
   pause: (pause: boolean) => void;
   compare: () => Promise<{ worst: number; mean: number; width: number; height: number }>;
 }
@@ -42,7 +46,8 @@ for (const name of ['materialBalls', 'interior', 'glass', 'depthOfField']) {
   });
 }
 
-test('a scene that changes, pauses, sizes and callbacks', async ({ page }) => {
+test('a scene that changes, a lost device, pauses, sizes and callbacks', async ({ page }) => {
+  await injectFaults(page);
   await page.goto(served.origin);
   await page.evaluate(() => window.start('depthOfField'));
   const samples = () => page.evaluate(() => window.state().samples);
@@ -65,6 +70,20 @@ test('a scene that changes, pauses, sizes and callbacks', async ({ page }) => {
     return [pathTracer.threePathTracer!.tracer.camera.transform[12], camera.position.x];
   });
   expect(seen[0]).toBeCloseTo(seen[1]!, 6);
+
+  // Another device takes the place of a lost one.
+  await page.evaluate(() => {
+    (window as { lost?: unknown }).lost = window.running().pathTracer.threePathTracer;
+    window.loseGpu();
+  });
+  await expect
+    .poll(() =>
+      page.evaluate(() => {
+        const { threePathTracer, samples: shown, error } = window.running().pathTracer;
+        return threePathTracer !== (window as { lost?: unknown }).lost && shown > 0 && error === undefined;
+      }),
+    )
+    .toBe(true);
 
   // Callbacks get the target and what draws it.
   await page.evaluate(() => {
@@ -110,4 +129,23 @@ test('a scene that changes, pauses, sizes and callbacks', async ({ page }) => {
     pathTracer.dispose();
     await frame();
   });
+});
+
+test('by a WebGPU renderer, until there are as many samples as asked for', async ({ page }, info) => {
+  const complaints = watch(page, served.origin);
+  await page.goto(served.origin);
+  await page.evaluate(() => window.startWebGpu());
+  const canvas = page.locator('canvas');
+  await expect.poll(() => page.evaluate(() => window.pathTracer.samples)).toBe(3);
+  await expect.poll(() => page.evaluate(() => window.drawn.pathTraced)).toBeGreaterThan(1);
+  expect(await page.evaluate(() => window.drawn.rasterised)).toBeGreaterThan(0);
+  await info.attach('path-traced', { body: await canvas.screenshot(), contentType: 'image/png' });
+  // Seen head on, the ball's middle has the light of all directions: its albedo, on three's own curve.
+  await expect.poll(async () => (await photograph(canvas)).leading.red).toBeGreaterThan(0.2);
+  const { cells } = await photograph(canvas);
+  expect(cells[4]![0]).toBeGreaterThan(150);
+  expect(cells[4]![2]).toBeLessThan(80);
+  expect(await page.evaluate(() => window.pathTracer.getSampleCountsAsync())).toMatchObject({ min: 3, max: 3, avg: 3 });
+  expect(await page.evaluate(() => window.pathTracer.threePathTracer!.samples)).toBe(3);
+  expect(complaints.filter((complaint) => !complaint.includes('GPU stall'))).toEqual([]);
 });

@@ -33,6 +33,8 @@ Object.assign(window, {
     return { samples, film: threePathTracer?.samples ?? 0, isCompiling, error: error && String(error) };
   },
   running: () => running,
+  /** The same by three's WebGPU renderer. */
+  startWebGpu: async () => Object.assign(window, await (await import('./webgpu')).startWebGpu()).drawn.pathTraced,
   pause: (pause: boolean) => void (running!.pathTracer.pausePathTracing = pause),
   /** Largest differences between the texels and a film of `fromThree` and `PathTracer`, and the mean of that. */
   compare: async () => {
