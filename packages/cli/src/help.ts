@@ -84,9 +84,9 @@ const COMMANDS = {
       --split N         Images with more samples than N become several jobs,
                         whose films are added up as glanz merge does, and then
                         denoised where --denoise asks for it. Not with --noise.
-      --gpu NAME        work: a worker for each; "all" for each that there is.
+      --gpu NAME        work, task: one for each; "all" for each that there is.
                         Of several with one name "NAME #2" is the second; each
-                        worker then sees its own alone, which needs root or
+                        process then sees its own alone, which needs root or
                         user namespaces.
       --until-empty     work: end when the queue is empty.
       --lock S          work: S seconds after a worker was killed its job goes
@@ -236,9 +236,11 @@ MANY IMAGES
                         file that belongs to another image is refused. Deleted
                         when the image is written. May hold {model}, {variant}
                         and {view}.
-      --gpu NAME        Given several times, each GPU takes the next image
-                        when it is done with one. A GPU that cannot recover
-                        leaves its image, with the samples so far, to the rest.
+      --gpu NAME        Given several times, or "all", each GPU takes the next
+                        image when it is done with one. For several GPUs of
+                        one name there is glanz farm task. A GPU that cannot
+                        recover leaves its image, with the samples so far, to
+                        the rest.
       --output-root DIR Let the batch file write below this folder. Default: the
                         folder that the batch file is in.
   An image that fails does not stop the others; the exit status is that of the

@@ -285,7 +285,8 @@ describe('without a queue', () => {
     const rest = await task(...bucket, 'b');
     expect([rest.code, rest.out], rest.err).toEqual([0, '{"ok":true,"images":1,"rendered":2}\n']);
     const image = readFileSync(join(folder, 'x.png'));
-    const inFolder = await task('--store', 'c');
+    // In a folder, on two devices at the same time.
+    const inFolder = await task('--store', 'c', '--gpu', 'software');
     expect(inFolder.out, inFolder.err).toBe('{"ok":true,"images":1,"rendered":3}\n');
     expect(Buffer.compare(image, readFileSync(join(folder, 'x.png')))).toBe(0);
     const missing = await task('--store', 's3://none', ...bucket.slice(2), 'd');

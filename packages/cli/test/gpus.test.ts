@@ -1,12 +1,14 @@
 import { execFile } from 'node:child_process';
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
 import { describe, expect, it } from 'vitest';
+import { CliError } from '../src/errors';
 import { chooseGpus, numbered } from '../src/gpus/choose-gpus';
 import { checkHiding, hiding } from '../src/gpus/hidden-files';
 import { nvidiaNodes } from '../src/gpus/nvidia-nodes';
-import { fakeBackend, FAKE_GPUS, run, temporaryFolder } from './fakes';
+import { fakeBackend, FAKE_GPUS, fakeDevice, run, temporaryFolder, type FakeOptions } from './fakes';
+import { makeGlb } from './glb';
 
 const H100 = 'NVIDIA H100 80GB HBM3';
 const listed = (...names: string[]) => [...names.map((name) => ({ ...FAKE_GPUS[0]!, name })), FAKE_GPUS[1]!];
@@ -107,6 +109,59 @@ describe('--gpu', () => {
       'SwiftShader Device',
       '',
     ]);
+  });
+});
+
+describe('commands on several GPUs', () => {
+  /** Two GPUs of these names; gives the names of those that were opened. */
+  const machineOf = (...names: string[]) => {
+    const opened: (string | undefined)[] = [];
+    const fake: FakeOptions = {
+      slowly: true,
+      listGpus: async () => listed(...names),
+      async openGpu(name) {
+        opened.push(name);
+        return { device: fakeDevice(), adapterName: name ?? '', software: false };
+      },
+    };
+    return { opened, fake };
+  };
+  const options = ['--samples', '3', '--size', '4x4', '--gpu', 'all'];
+
+  it('glanz render --gpu all: each takes images', async () => {
+    const { opened, fake } = machineOf('A', 'B');
+    const cwd = temporaryFolder({ 'm.glb': makeGlb() });
+    const { code, err } = await run(['render', 'm.glb', '--turntable', '6', '-o', '{view}.png', ...options], cwd, fake);
+    expect(code, err).toBe(0);
+    expect(opened.sort()).toEqual(['A', 'B']);
+    expect(readdirSync(cwd).filter((name) => name.endsWith('.png')).length).toBe(6);
+  });
+
+  it('glanz render: GPUs of one name are for glanz farm task, which says so where they have no files', async () => {
+    const { fake } = machineOf('Radeon', 'Radeon');
+    const cwd = temporaryFolder({ 'm.glb': makeGlb() });
+    const { code, err } = await run(['render', 'm.glb', '-o', 'a.png', ...options], cwd, fake);
+    expect([code, err]).toEqual([2, expect.stringContaining('cannot be distinguished here')]);
+  });
+
+  it('glanz farm task --gpu all: each takes images, and a failure ends the others', async () => {
+    const { opened, fake } = machineOf('A', 'B');
+    const cwd = temporaryFolder({ 'm.glb': makeGlb() });
+    writeFileSync(join(cwd, 'b.json'), JSON.stringify([{ model: 'm.glb', turntable: 6, output: '{view}.png' }]));
+    const task = ['farm', 'task', 'b.json', '--json', ...options];
+    const { code, out, err } = await run(task, cwd, fake);
+    expect([code, out], err).toEqual([0, '{"ok":true,"images":6,"rendered":6}\n']);
+    expect(opened.sort()).toEqual(['A', 'B']);
+    expect(readdirSync(cwd).filter((name) => name.endsWith('.png')).length).toBe(6);
+    expect((await run(task, cwd, fake)).out).toBe('{"ok":true,"images":6,"rendered":0}\n');
+    const broken: FakeOptions = {
+      ...fake,
+      onRead: (layer) => {
+        if (layer === 'beauty') throw new CliError('cli/output', 'No room.');
+      },
+    };
+    const failed = await run([...task, '--store', 'other'], cwd, broken);
+    expect([failed.code, failed.out]).toEqual([4, expect.stringContaining('No room.')]);
   });
 });
 

@@ -5,6 +5,7 @@ import { checkBatchOutputs, readBatch } from '../batch-file';
 import { CliError, EXIT, EXIT_OF_INTERRUPT } from '../errors';
 import { isEnvironmentFile } from '../environment';
 import { checkInput } from '../input';
+import { chooseGpus } from '../gpus/choose-gpus';
 import type { CliIo } from '../io';
 import type { RenderCommand, RenderCommandOptions } from '../options';
 import { checkWritable } from '../output/write';
@@ -86,9 +87,10 @@ export async function renderCommand(
         await checkWritable(path, io.cwd);
       }
     }
+    const gpus = await gpusOf(command, backend);
     return run.many
-      ? await renderMany(shots, command, loader, run)
-      : await renderOne(shots[0] as Shot, command, loader, run);
+      ? await renderMany(shots, { ...command, gpus }, loader, run)
+      : await renderOne(shots[0] as Shot, { ...command, gpus }, loader, run);
   } catch (error) {
     // An abort that a stage answered by throwing is the user's wish, not a fault.
     if (run.interrupted !== null && abort.signal.aborted && (error as Error | undefined)?.name === 'AbortError') {
@@ -103,6 +105,19 @@ export async function renderCommand(
 }
 
 const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : EXIT_OF_INTERRUPT[interrupted]);
+
+/** The GPUs' names, all of them for `--gpu all`; in this process, GPUs of one name cannot be distinguished. */
+async function gpusOf({ gpus }: RenderCommand, backend: Backend): Promise<string[]> {
+  if (gpus.length === 0) return [];
+  const chosen = await chooseGpus(gpus, backend);
+  const hidden = chosen.find((gpu) => gpu.hidden.length > 0);
+  if (hidden)
+    throw new CliError(
+      'cli/gpu-isolation',
+      `Several GPUs have the name of ${hidden.label}, and one process cannot distinguish them. Render the batch by glanz farm task BATCH --gpu ${gpus.includes('all') ? 'all' : `"${hidden.label}"`}, which starts a process for each.`,
+    );
+  return chosen.flatMap(({ name }) => (name === undefined ? [] : [name]));
+}
 
 /** The error of `--variant all` for a model without any. */
 export const noVariants = ({ model }: RenderCommandOptions): CliError =>

@@ -1,11 +1,12 @@
 import { rm } from 'node:fs/promises';
 import { hostname } from 'node:os';
-import type { FarmJob, FarmRequest, FarmStore, JobRenderer, JobResult } from '@glanz/farm';
+import type { FarmJob, FarmRequest, FarmStore, JobResult } from '@glanz/farm';
 import type { Backend } from '../../backend';
 import { EXIT, EXIT_OF_INTERRUPT } from '../../errors';
-import { farmRenderer } from '../../farm/job-renderer';
+import { gpuRenderer, type GpuRenderer } from '../../farm/gpu-renderer';
 import { imageName } from '../../farm/openjd';
 import type { FarmPlan } from '../../farm/plan';
+import { chooseGpus } from '../../gpus/choose-gpus';
 import type { CliIo, Interrupt } from '../../io';
 import { usage } from '../../options';
 import type { ProgressReporter } from '../../progress';
@@ -14,7 +15,7 @@ import { openStore } from './open-store';
 import type { FarmCommand } from './parse';
 
 /**
- * `glanz farm task`: renders some images of a batch in this process, for schedulers that start a process for each
+ * `glanz farm task`: renders some images of a batch without a queue, for schedulers that start a process for each
  * (Open Job Description, Slurm arrays, indexed jobs of Kubernetes). What the store has is not rendered again. Gives the
  * exit code.
  */
@@ -36,32 +37,66 @@ export async function taskCommand(
     interrupted = signal;
     stop.abort();
   });
-  const renderer = farmRenderer(io, backend, gpus[0]);
   const requested = images && new Set(images);
+  const renderers: GpuRenderer[] = [];
   let rendered = 0;
   let done = 0;
-  try {
+  /** Images that are not in the store, one by one; finished ones are copied on the way. */
+  async function* open(): AsyncGenerator<TaskImage> {
     for await (const image of plan.images(store)) {
       const { index, id, requests, paths } = image;
-      const name = imageName(image);
-      if (requested && !requested.delete(index) && !requested.delete(name)) continue;
-      let result = await store.result(id);
-      const merge = requests[0]?.job.merge;
-      for (const job of result ? [] : jobsOf(requests, merge, part)) {
-        result = await store.result(job.id);
-        if (result) continue;
-        result = await renderInto(store, job, renderer, stop.signal);
-        if (!result) return EXIT_OF_INTERRUPT[interrupted ?? 'SIGTERM'];
-        rendered++;
-      }
-      if (result?.id === id) await store.deliver(result, { root: plan.outputRoot, paths });
-      done++;
-      if (requested?.size === 0) break;
+      if (requested && !requested.delete(index) && !requested.delete(imageName(image))) continue;
+      const result = await store.result(id);
+      if (result) await store.deliver(result, { root: plan.outputRoot, paths });
+      const jobs = result ? [] : partsOf(requests, part);
+      if (jobs.length === 0) done++;
+      const merge = part === undefined ? requests[0]?.job.merge : undefined;
+      const task = { id, paths, merge, left: jobs.length };
+      for (const job of jobs) yield { job, image: task };
+      if (requested?.size === 0) return;
     }
+  }
+  const tasks = open();
+  const make = async (job: FarmJob, renderer: GpuRenderer) => {
+    const there = await store.result(job.id);
+    if (there || stop.signal.aborted) return there;
+    const result = await renderInto(store, job, renderer, stop.signal);
+    if (result) rendered++;
+    return result;
+  };
+  /** Each GPU takes the next job; the one that has finished an image's last part adds the parts up. */
+  const work = async (renderer: GpuRenderer) => {
+    for (;;) {
+      const { value, done: over } = await tasks.next();
+      if (over || stop.signal.aborted) return;
+      const { job, image } = value;
+      let result = await make(job, renderer);
+      if (!result) return;
+      if (--image.left > 0) continue;
+      if (image.merge) result = await make(image.merge, renderer);
+      if (!result) return;
+      if (result.id === image.id) await store.deliver(result, { root: plan.outputRoot, paths: image.paths });
+      done++;
+    }
+  };
+  try {
+    for (const gpu of await chooseGpus(gpus, backend)) renderers.push(await gpuRenderer(gpu, io, backend));
+    const ends = await Promise.allSettled(
+      renderers.map((renderer) =>
+        work(renderer).catch((error: unknown) => {
+          // The others keep their samples.
+          stop.abort();
+          throw error;
+        }),
+      ),
+    );
+    for (const end of ends) if (end.status === 'rejected') throw end.reason;
   } finally {
+    for (const renderer of renderers) renderer.close();
     stopListening();
     progress.clear();
   }
+  if (interrupted) return EXIT_OF_INTERRUPT[interrupted];
   const [unknown] = requested ?? [];
   if (unknown !== undefined) throw usage(`--image: the batch has no image "${unknown}".`);
   if (json) io.stdout(jsonLine({ ok: true, images: done, rendered }));
@@ -69,17 +104,28 @@ export async function taskCommand(
   return EXIT.ok;
 }
 
-/** The jobs of an image, or of one of its parts; an image that is not in parts counts as its part 0. */
-function jobsOf(requests: readonly FarmRequest[], merge: FarmJob | undefined, part: number | undefined): FarmJob[] {
+/** A job of an image that is rendered. */
+interface TaskImage {
+  readonly job: FarmJob;
+  readonly image: {
+    readonly id: string;
+    readonly paths: readonly string[];
+    readonly merge: FarmJob | undefined;
+    /** Jobs that are not finished, without the merge. */
+    left: number;
+  };
+}
+
+/** The jobs of an image without their merge, or one of its parts; an image that is not in parts counts as its part 0. */
+function partsOf(requests: readonly FarmRequest[], part: number | undefined): FarmJob[] {
   const jobs = requests.map(({ job }) => job);
-  if (part !== undefined) return jobs.slice(part, part + 1);
-  return merge ? [...jobs, merge] : jobs;
+  return part === undefined ? jobs : jobs.slice(part, part + 1);
 }
 
 async function renderInto(
   store: FarmStore,
   job: FarmJob,
-  renderer: JobRenderer,
+  renderer: GpuRenderer,
   signal: AbortSignal,
 ): Promise<JobResult | undefined> {
   const start = performance.now();

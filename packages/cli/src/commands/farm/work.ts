@@ -1,11 +1,10 @@
-import { existsSync } from 'node:fs';
 import { resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { startFarmWorker, type FarmWorker, type WorkerEvent } from '@glanz/farm';
 import type { Backend } from '../../backend';
 import { EXIT } from '../../errors';
+import { rendererOf } from '../../farm/gpu-renderer';
 import { chooseGpus } from '../../gpus/choose-gpus';
-import { checkHiding, hiding } from '../../gpus/hidden-files';
+import { checkHiding } from '../../gpus/hidden-files';
 import type { CliIo } from '../../io';
 import type { ProgressReporter } from '../../progress';
 import { jsonLine } from '../../visible';
@@ -14,12 +13,6 @@ import type { FarmCommand } from './parse';
 
 /** Milliseconds between two looks at whether the queue is empty. */
 const LOOK_MS = 500;
-
-/** The program, for the renderers' processes: beside this file in the package, or this process's own script. */
-function program(): string {
-  const beside = fileURLToPath(new URL('./glanz.js', import.meta.url));
-  return existsSync(beside) ? beside : (process.argv[1] as string);
-}
 
 const EVENTS = {
   begun: ({ job }: WorkerEvent & { type: 'begun' }) => `begin ${job.label}`,
@@ -61,18 +54,14 @@ export async function workCommand(
     stop.abort();
   });
   try {
-    for (const { name: gpu, label, hidden } of gpus)
+    for (const gpu of gpus)
       workers.push(
         await startFarmWorker({
           redis: redis as string,
           name: queue,
           store,
-          renderer: {
-            script: program(),
-            args: ['farm', 'renderer', ...(gpu === undefined ? [] : ['--gpu', gpu])],
-            prefix: hiding(hidden),
-          },
-          gpu: label,
+          renderer: rendererOf(gpu),
+          gpu: gpu.label,
           // Machines that share a bucket need not share a folder.
           outputRoot: outputRoot === undefined ? (isBucket ? false : undefined) : resolve(io.cwd, outputRoot),
           ...(lock === undefined ? {} : { lockMs: 1000 * lock, beatMs: Math.min(5000, 250 * lock) }),
