@@ -157,6 +157,21 @@ describe('results', () => {
     await expect(other.deliver(result, { root, paths: ['../a.txt'] })).rejects.toMatchObject({ code: 'farm/store' });
   });
 
+  it('with a file that is damaged on the server are neither delivered nor read', async () => {
+    await finish(await machine(), 'first');
+    const hash = sha256('first');
+    const Key = `${url.slice('s3://farm/'.length)}/objects/${hash.slice(0, 2)}/${hash}`;
+    const client = new sdk.S3Client({ endpoint: server.endpoint, forcePathStyle: true });
+    await client.send(new sdk.PutObjectCommand({ Bucket: 'farm', Key, Body: 'firsT' }));
+    const other = await machine();
+    const root = temporaryFolder();
+    const delivered = other.deliver((await other.result(ID))!, { root, paths: ['a.txt'] });
+    await expect(delivered).rejects.toThrow(/is damaged/);
+    await expect(other.resultFile(ID, 'a.txt')).rejects.toThrow(/is damaged/);
+    expect(readdirSync(root)).toEqual([]);
+    expect(filesBelow(other.address.cache as string)).toEqual([]);
+  });
+
   it('an upload that is cut is not there, in part or as a whole', async () => {
     const [a, b] = [await machine(), await machine()];
     const text = 'y'.repeat(300_000);
