@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { hdr, photograph, quads } from '@glanz/browser';
+import { animatedQuads, hdr, photograph, quads } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
 import { buildSingleFile } from '../scripts/single-file.mjs';
 import { dracoModel, ktx2Model } from './packed';
@@ -55,6 +55,7 @@ test.beforeAll(async () => {
     (path) => {
       if (path.endsWith('/draco.glb')) return { body: draco, type: 'model/gltf-binary' };
       if (path.endsWith('/ktx2.glb')) return { body: ktx2, type: 'model/gltf-binary' };
+      if (path.endsWith('/animated.glb')) return { body: animatedQuads, type: 'model/gltf-binary' };
       if (path.endsWith('.glb')) return { body: model, type: 'model/gltf-binary' };
       if (path.endsWith('.obj')) return { body: OBJ, type: 'text/plain' };
       if (path.endsWith('.hdr')) return { body: hdr([128, 0, 0, 129]), type: 'image/vnd.radiance' };
@@ -67,6 +68,11 @@ test.beforeAll(async () => {
       if (path === '/other')
         return {
           body: html(`<glanz-viewer src="card.obj" environment-image="red.hdr" ${attributes}></glanz-viewer>`),
+          type: 'text/html',
+        };
+      if (path === '/animated')
+        return {
+          body: html(`<glanz-viewer src="animated.glb" shadow-intensity="1" ${attributes}></glanz-viewer>`),
           type: 'text/html',
         };
       if (path === '/draco' || path === '/ktx2')
@@ -166,6 +172,19 @@ for (const [kind, files] of [
   });
 }
 
-test('the file takes at most 228 kB, gzipped', () => {
-  expect(gzipSync(readFileSync(join(folder, 'glanz-viewer.min.js')), { level: 9 }).length).toBeLessThanOrEqual(229_000);
+test('animations and a ground come from beside the file', async ({ page }) => {
+  const { errors } = await open(page, '/animated');
+  expect(loaded()).toEqual(['/glanz-viewer.min.js', '/glanz-viewer.stage.min.js']);
+  await page.evaluate(() => void (document.querySelector('glanz-viewer')!.currentTime = 0.2));
+  const places = () =>
+    page.evaluate(() =>
+      document.querySelector('glanz-viewer')!.viewer!.scene!.instances.map(({ transform }) => transform[12]!),
+    );
+  await expect.poll(async () => (await places()).map((x) => Math.round(10 * x))).toEqual([12, -12, 0]);
+  expect(errors).toEqual([]);
+  expect(loaded()).toContain('/glanz-viewer.animation.min.js');
+});
+
+test('the file takes at most 231 kB, gzipped', () => {
+  expect(gzipSync(readFileSync(join(folder, 'glanz-viewer.min.js')), { level: 9 }).length).toBeLessThanOrEqual(231_000);
 });

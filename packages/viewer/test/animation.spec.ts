@@ -54,9 +54,7 @@ test('an animation plays in previews, and the pose that it ends in is rendered t
     .toEqual(['white', 'white']);
 });
 
-test('morph targets and skins deform meshes; the rest pose comes back, and survives a loss of the GPU', async ({
-  page,
-}) => {
+test('morph targets deform meshes; the rest pose comes back, and survives a loss of the GPU', async ({ page }) => {
   await open(page, served.origin, {}, animatedQuads);
   const sides = async () => {
     await done(page);
