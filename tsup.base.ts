@@ -8,7 +8,7 @@ const page = errorsPage(rootManifest);
 /**
  * One build recipe for every package: ESM with declarations, one file per entry, chunks shared between entries.
  * `entries` maps the name of the output file to its source file. `client` writes `'use client'` into each file, which a
- * package of React components needs under server components.
+ * package of React components needs under server components; `directives` keeps those that sources of entries begin with.
  */
 export function glanzPackage(
   entries: Record<string, string>,
@@ -16,6 +16,7 @@ export function glanzPackage(
     readonly external?: readonly string[];
     readonly platform?: 'node' | 'neutral';
     readonly client?: boolean;
+    readonly directives?: boolean;
   } = {},
 ) {
   return defineConfig({
@@ -26,7 +27,7 @@ export function glanzPackage(
     sourcemap: true,
     clean: true,
     // Rollup, which does this second pass, removes directives, banner included; esbuild's own pass keeps them.
-    treeshake: !options.client,
+    treeshake: !options.client && !options.directives,
     ...(options.client ? { banner: { js: "'use client';" } } : {}),
     splitting: true,
     // Without an address the name stays, and errors end without a link.

@@ -144,7 +144,10 @@ function checkDirectives(p, { folder }, verdicts) {
   if (!p.manifest.peerDependencies?.react) return;
   for (const { specifier, conditions } of entriesOf(p)) {
     const file = join(folder, 'node_modules', p.name, conditions.default);
-    const starts = /^(['"])use client\1\s*;/.test(pastComments(readFileSync(file, 'utf8')));
+    const text = readFileSync(file, 'utf8');
+    // Where React is an optional peer, entries without it run on servers too.
+    if (p.manifest.peerDependenciesMeta?.react?.optional && !/from\s*['"]react['"]/.test(text)) continue;
+    const starts = /^(['"])use client\1\s*;/.test(pastComments(text));
     verdicts.expect(starts, `${specifier}: ${relative(folder, file)} does not begin with 'use client'.`);
   }
 }

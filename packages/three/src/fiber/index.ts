@@ -1,1 +1,3 @@
+'use client';
+
 export { PathTracer, type PathTracerProps } from './path-tracer';
