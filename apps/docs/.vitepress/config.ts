@@ -6,6 +6,7 @@ import { publishedModules } from '../../../tools/pipeline/published-source.mjs';
 import { weslModules } from '../../../tools/pipeline/wesl.mjs';
 import { apiReference } from './api';
 import { emptyHeaders } from './empty-headers';
+import { buildGalleryModels } from './gallery-models';
 import { packageFacts, packageLine } from './package-facts';
 import { buildPlayground } from './playground';
 import { readmeLinks } from './readme-links';
@@ -88,7 +89,10 @@ export default defineConfig({
     // The usual ones have comments and keywords too faint for the ground of code blocks.
     theme: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
   },
-  buildEnd: ({ outDir }) => buildPlayground(join(outDir, 'playground')),
+  buildEnd: async ({ outDir }) => {
+    await buildPlayground(join(outDir, 'playground'));
+    await buildGalleryModels(join(outDir, 'gallery/models'));
+  },
   // The theme's home page has no main landmark; its other pages have.
   transformHtml: (html) => html.replace(/(<div class="VPContent is-home"[^>]*)>/, '$1 role="main">'),
   vite: {

@@ -27,7 +27,7 @@ const draco = {
  *
  * @returns Bytes of all files.
  */
-export async function bundleGallery(out) {
+export async function bundleGallery(out, { weights = true } = {}) {
   mkdirSync(join(out, 'lib'), { recursive: true });
   mkdirSync(join(out, 'weights'), { recursive: true });
   const outfile = join(out, 'lib/gallery.mjs');
@@ -54,7 +54,7 @@ export async function bundleGallery(out) {
   // The command reads its version beside its folder.
   copyFileSync(join(root, 'packages/cli/package.json'), join(out, 'package.json'));
   let bytes = statSync(outfile).size;
-  for (const name of WEIGHTS) {
+  for (const name of weights ? WEIGHTS : []) {
     const target = join(out, `weights/${name}.tza`);
     copyFileSync(join(root, `packages/denoise-weights/weights/${name}.tza`), target);
     bytes += statSync(target).size;

@@ -29,10 +29,10 @@ export async function writeDocsImages(images: readonly GalleryImage[], folder: s
       continue;
     }
     let quality = 90;
-    let bytes = await sharp(source).webp({ quality, effort: 6 }).toBuffer();
+    let bytes = await sharp(source).webp({ quality, alphaQuality: quality, effort: 6 }).toBuffer();
     while (bytes.byteLength > MAX_BYTES && quality > 40) {
       quality -= 5;
-      bytes = await sharp(source).webp({ quality, effort: 6 }).toBuffer();
+      bytes = await sharp(source).webp({ quality, alphaQuality: quality, effort: 6 }).toBuffer();
     }
     writeFileSync(join(target, `${id}.webp`), bytes);
     process.stdout.write(`${id}.webp: quality ${quality}, ${Math.round(bytes.byteLength / 1000)} kB\n`);

@@ -4,5 +4,6 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 import { bundleGallery } from './bundle.mjs';
 
 const out = join(dirname(fileURLToPath(import.meta.url)), '../.cache');
-await bundleGallery(out);
+// Models need no weights, which a checkout has only after a build.
+await bundleGallery(out, { weights: !process.argv.includes('--models') });
 await import(pathToFileURL(join(out, 'lib/gallery.mjs')).href);

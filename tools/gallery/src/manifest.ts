@@ -77,7 +77,7 @@ export const GALLERY: readonly GalleryImage[] = [
     alt: 'A dark room with a polished floor in which globes of opal glass hang at many heights',
     model: 'lamps',
     camera: 'Room',
-    options: { samples: 512, 'max-depth': 10, exposure: 1 },
+    options: { samples: 160, 'max-depth': 10, exposure: 0.5 },
   },
   {
     id: 'tumbler-whisky',
@@ -116,7 +116,7 @@ export const GALLERY: readonly GalleryImage[] = [
     alt: 'A teapot in celadon glaze with a bamboo handle, bowls of tea and a cobalt vase',
     model: 'tea-set',
     camera: 'Front',
-    options: { samples: 384 },
+    options: { samples: 160 },
   },
   {
     id: 'button-panel',
@@ -124,6 +124,7 @@ export const GALLERY: readonly GalleryImage[] = [
     alt: 'Six illuminated push-buttons with bezels of chrome, brass, aluminium, copper, black and steel on a metal panel',
     model: 'button-panel',
     camera: 'Panel',
+    options: { samples: 160 },
   },
   {
     id: 'bubbles',
@@ -161,7 +162,7 @@ export const GALLERY: readonly GalleryImage[] = [
     alt: 'A photographic lens with violet and green coatings, cut out on a transparent background with its shadow',
     model: 'camera-lens',
     camera: 'Front',
-    options: { ...GLASS, transparent: true, catcher: ['Backdrop'] },
+    options: { ...GLASS, samples: 160, transparent: true, catcher: ['Backdrop'] },
   },
   {
     id: 'knot-titanium',
@@ -170,6 +171,7 @@ export const GALLERY: readonly GalleryImage[] = [
     model: 'knot',
     camera: 'Front',
     variant: 'titanium',
+    options: { samples: 160 },
   },
   {
     id: 'watch-dial',
@@ -212,7 +214,7 @@ export const GALLERY: readonly GalleryImage[] = [
     model: 'tumbler',
     camera: 'Front',
     variant: 'water',
-    options: GLASS,
+    options: { ...GLASS, samples: 160 },
   },
   {
     id: 'knot-wax',
@@ -221,7 +223,7 @@ export const GALLERY: readonly GalleryImage[] = [
     model: 'knot',
     camera: 'Front',
     variant: 'wax',
-    options: INSIDE,
+    options: { ...INSIDE, samples: 160 },
   },
   {
     id: 'amplifier-knob',
@@ -237,6 +239,7 @@ export const GALLERY: readonly GalleryImage[] = [
     model: 'speedform',
     camera: 'Three quarters',
     variant: 'blue',
+    options: { samples: 160 },
   },
   {
     id: 'tea-set-tenmoku',
@@ -245,7 +248,7 @@ export const GALLERY: readonly GalleryImage[] = [
     model: 'tea-set',
     camera: 'Front',
     variant: 'tenmoku',
-    options: { samples: 384 },
+    options: { samples: 160 },
   },
   {
     id: 'mail-copper',
@@ -254,6 +257,7 @@ export const GALLERY: readonly GalleryImage[] = [
     model: 'mail',
     camera: 'Near',
     variant: 'copper',
+    options: { samples: 160 },
   },
   {
     id: 'chess-frosted',
@@ -262,6 +266,6 @@ export const GALLERY: readonly GalleryImage[] = [
     model: 'chess',
     camera: 'Low',
     variant: 'frosted',
-    options: GLASS,
+    options: { ...GLASS, samples: 160 },
   },
 ];
