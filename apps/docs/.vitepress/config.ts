@@ -91,7 +91,7 @@ export default defineConfig({
   },
   buildEnd: async ({ outDir }) => {
     await buildPlayground(join(outDir, 'playground'));
-    await buildGalleryModels(join(outDir, 'gallery/models'));
+    await buildGalleryModels(join(outDir, 'images/models'));
   },
   // The theme's home page has no main landmark; its other pages have.
   transformHtml: (html) => html.replace(/(<div class="VPContent is-home"[^>]*)>/, '$1 role="main">'),

@@ -15,7 +15,7 @@ const MAX_BYTES = 150_000;
  */
 export async function writeDocsImages(images: readonly GalleryImage[], folder: string): Promise<number> {
   const { default: sharp } = await import('sharp');
-  const target = join('apps', 'docs', 'public', 'gallery');
+  const target = join('apps', 'docs', 'public', 'images');
   const facts = join('apps', 'docs', 'gallery.json');
   mkdirSync(target, { recursive: true });
   const known = new Map<string, GalleryRecord>();
