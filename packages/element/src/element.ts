@@ -1,28 +1,26 @@
-import { TONE_MAPS, type ToneMap } from '@glanz/tonemap';
-import type { BackFaceCulling, PickResult } from '@glanz/renderer';
-import { RENDER_OPTIONS, takesOption } from '@glanz/renderer/options';
+import type { PickResult } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
-import {
-  createViewer,
-  type EnvironmentSource,
-  type GroundOptions,
-  type ModelSource,
-  type Orbit,
-  type PlayOptions,
-  type Viewer,
-} from '@glanz/viewer';
+import { createViewer, type ModelSource, type Orbit, type PlayOptions, type Viewer } from '@glanz/viewer';
 import { ElementAnimation } from './animation';
 import type { ElementBlobOptions, GlanzViewerConstructor, GlanzViewerElement, GlanzViewerEventMap } from './api';
-import { attributeFault, numberIn, TONE_MAP_NAMES } from './attribute-checks';
+import { attributeFault, numberIn } from './attribute-checks';
 import { ATTRIBUTES, type AttributeName } from './attributes';
-import { packagedDecoders, type DecoderAddresses } from './decoders';
+import { packagedDecoders } from './decoders';
 import { denoiseBy } from './denoise-module';
 import { ElementError } from './errors';
 import { HotspotLayer, readVector, viewHotspot, type HotspotView } from './hotspots';
-import { placementOf } from './placement';
 import { adoptProperties, reflectAttributes } from './reflect';
+import {
+  applySettings,
+  backgroundOf,
+  credentialsOf,
+  cullingOf,
+  decodersOf,
+  environmentOf,
+  groundOf,
+  transformOf,
+} from './settings';
 import { fillShadow, type Shadow } from './shadow';
-import { angle } from './units';
 import { cameraOf, describeView, limitsOf, orbitOf, type ViewAttributes } from './view';
 
 const VIEW: ReadonlySet<string> = new Set([
@@ -42,15 +40,6 @@ const POSTER_SAMPLES = 64;
 const SPEAK_MS = 600;
 
 let made: GlanzViewerConstructor | undefined;
-let warned = false;
-
-/** Once per page: `exposure` is a factor, which the viewer, the command line and the playground do not use. */
-function warnOfExposure(): void {
-  if (warned) return;
-  warned = true;
-  // oxlint-disable-next-line no-console
-  console.warn('<glanz-viewer>: "exposure", a factor, is deprecated; use "exposure-ev", its base-2 logarithm.');
-}
 
 /** A number as a property takes it. @throws {ElementError} `element/property` */
 function finite(name: string, value: unknown): number {
@@ -192,13 +181,13 @@ function makeClass(): GlanzViewerConstructor {
       else if (name === 'animation-name') this.#animation.rename();
       else if (name === 'autoplay') {
         if (now !== null && this.#loaded) this.#animation.play();
-      } else if (name === 'orientation' || name === 'scale') viewer.modelTransform = this.#placement;
-      else if (name === 'shadow-intensity' || name === 'ground-reflection') viewer.ground = this.#ground;
-      else if (name === 'with-credentials') viewer.credentials = this.#credentials;
+      } else if (name === 'orientation' || name === 'scale') viewer.modelTransform = transformOf(this);
+      else if (name === 'shadow-intensity' || name === 'ground-reflection') viewer.ground = groundOf(this);
+      else if (name === 'with-credentials') viewer.credentials = credentialsOf(this);
       else if (name === 'variant-name') this.#setVariant(viewer);
       else if (LIGHT.has(name)) {
-        viewer.background = this.#background;
-        viewer.setEnvironment(this.#environment).then(
+        viewer.background = backgroundOf(this);
+        viewer.setEnvironment(environmentOf(this)).then(
           () => this.#emit('environment-change', undefined),
           (error: unknown) => this.#fail(error, 'warning'),
         );
@@ -208,7 +197,7 @@ function makeClass(): GlanzViewerConstructor {
             () => void (viewer.fieldOfView = cameraOf(viewer.scene as Scene, this.#aspect, this.#view).yfov),
           );
         this.#look(viewer, name === 'min-camera-orbit' || name === 'max-camera-orbit');
-      } else this.#apply(viewer);
+      } else applySettings(this, viewer);
     }
 
     async show(source: ModelSource): Promise<void> {
@@ -324,47 +313,6 @@ function makeClass(): GlanzViewerConstructor {
       };
     }
 
-    get #background(): 'environment' | 'transparent' {
-      return this.hasAttribute('skybox-image') ? 'environment' : 'transparent';
-    }
-
-    get #environment(): EnvironmentSource {
-      const image = this.getAttribute('skybox-image') || this.getAttribute('environment-image');
-      if (!image || image === 'auto') return 'scene';
-      return image === 'neutral' || image === 'legacy' ? 'studio' : image;
-    }
-
-    get #placement(): number[] | undefined {
-      return placementOf(this.getAttribute('orientation'), this.getAttribute('scale'));
-    }
-
-    get #ground(): GroundOptions | undefined {
-      const reflection = this.#number('ground-reflection') ?? 0;
-      const shadow = this.#number('shadow-intensity') ?? (reflection > 0 ? 1 : 0);
-      return shadow > 0 ? { shadow, reflection } : undefined;
-    }
-
-    get #credentials(): RequestCredentials {
-      return this.hasAttribute('with-credentials') ? 'include' : 'same-origin';
-    }
-
-    get #culling(): BackFaceCulling {
-      const mode = this.getAttribute('back-face-culling');
-      return takesOption('backFaceCulling', mode) ? (mode as BackFaceCulling) : RENDER_OPTIONS.backFaceCulling.default;
-    }
-
-    get #decoders(): DecoderAddresses {
-      const text = (name: AttributeName) => this.getAttribute(name);
-      return {
-        get draco() {
-          return text('draco-decoder');
-        },
-        get ktx2() {
-          return text('ktx2-transcoder');
-        },
-      };
-    }
-
     #number(name: AttributeName): number | undefined {
       return numberIn(name, this.getAttribute(name));
     }
@@ -374,18 +322,18 @@ function makeClass(): GlanzViewerConstructor {
       const shadow = this.#shadow;
       if (this.#viewer || !shadow) return;
       const viewer = (this.#viewer = createViewer(shadow.canvas, {
-        environment: this.#environment,
-        background: this.#background,
+        environment: environmentOf(this),
+        background: backgroundOf(this),
         controls: false,
-        modelTransform: this.#placement,
-        ground: this.#ground,
-        credentials: this.#credentials,
-        decoders: packagedDecoders(this.#decoders),
-        tracer: { backFaceCulling: this.#culling },
+        modelTransform: transformOf(this),
+        ground: groundOf(this),
+        credentials: credentialsOf(this),
+        decoders: packagedDecoders(decodersOf(this)),
+        tracer: { backFaceCulling: cullingOf(this) },
         camera: (scene, aspect) => cameraOf(scene, aspect, this.#view),
       }));
       for (const name of Object.keys(ATTRIBUTES) as AttributeName[]) this.#checkAttribute(name);
-      this.#apply(viewer);
+      applySettings(this, viewer);
       this.#listen(viewer, shadow);
       this.#denoise(viewer);
       if (load) this.#load(viewer);
@@ -401,43 +349,6 @@ function makeClass(): GlanzViewerConstructor {
       this.#loaded = false;
       this.#shadow?.progress.classList.add('gone');
       this.showPoster();
-    }
-
-    /** What can change at any time at no cost. */
-    #apply(viewer: Viewer): void {
-      const degrees = (name: AttributeName) => angle((this.getAttribute(name) ?? '').trim());
-      viewer.samples = this.#number('samples') ?? RENDER_OPTIONS.samples.default;
-      viewer.noise = this.#number('noise');
-      viewer.maxDepth = this.#number('max-depth') ?? RENDER_OPTIONS.maxDepth.default;
-      viewer.pixelRatio = this.#number('pixel-ratio');
-      const preview = this.getAttribute('preview') ?? '';
-      viewer.previewMode = preview === 'raw' || preview === 'filtered' ? preview : 'auto';
-      const factor = this.#number('exposure');
-      if (factor !== undefined) warnOfExposure();
-      viewer.exposure = this.#number('exposure-ev') ?? Math.log2(Math.max(1e-6, factor ?? 1));
-      const tone = this.getAttribute('tone-mapping') ?? 'neutral';
-      viewer.toneMap = Object.hasOwn(TONE_MAP_NAMES, tone)
-        ? (TONE_MAP_NAMES[tone] as ToneMap)
-        : TONE_MAPS.includes(tone as ToneMap)
-          ? (tone as ToneMap)
-          : 'neutral';
-      viewer.environmentIntensity = this.#number('environment-intensity') ?? 1;
-      viewer.environmentRotation = degrees('environment-rotation') ?? 0;
-      viewer.damping = (this.#number('interpolation-decay') ?? 60) / 1000;
-      viewer.autoRotateDelay = (this.#number('auto-rotate-delay') ?? 3000) / 1000;
-      const speed = this.hasAttribute('auto-rotate') ? (degrees('rotation-per-second') ?? Math.PI / 32) : 0;
-      if (speed !== viewer.autoRotate) viewer.autoRotate = speed;
-      const controls = this.hasAttribute('camera-controls') && {
-        pan: !this.hasAttribute('disable-pan'),
-        zoom: !this.hasAttribute('disable-zoom'),
-        focus: !this.hasAttribute('disable-tap'),
-        orbitSensitivity: this.#number('orbit-sensitivity') ?? 1,
-        panSensitivity: this.#number('pan-sensitivity') ?? 1,
-        zoomSensitivity: this.#number('zoom-sensitivity') ?? 1,
-      };
-      // Not for nothing: a drag that is under way would end.
-      if (JSON.stringify(controls) !== JSON.stringify(viewer.controls)) viewer.controls = controls;
-      if (viewer.controls) viewer.canvas.style.touchAction = this.getAttribute('touch-action') ?? 'pan-y';
     }
 
     #listen(viewer: Viewer, { bar, poster, progress, message }: Shadow): void {

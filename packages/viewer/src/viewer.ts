@@ -190,13 +190,35 @@ export class Viewer {
   }
 
   /**
+   * Shows or hides the parts of a name, or the one of an index in `scene.instances`. Of several calls for one part
+   * before the next frame the last one counts.
+   * @returns When the image shows it.
+   * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see; {ViewerError}
+   * `viewer/no-scene`.
+   */
+  setVisibility(nameOrIndex: string | number, visible: boolean): Promise<void> {
+    return this.edit((tracer) => tracer.setVisibility(nameOrIndex, visible), { key: `visibility ${nameOrIndex}` });
+  }
+
+  /**
+   * Puts another material of the scene on the parts of a name, or on the one of an index.
+   * @returns When the image shows it.
+   * @throws {RenderError} `renderer/instance`, `renderer/material`; {ViewerError} `viewer/no-scene`.
+   * @example
+   * await viewer.setPartMaterial('seat', 'oak');
+   */
+  setPartMaterial(nameOrIndex: string | number, material: string | number): Promise<void> {
+    return this.edit((tracer) => tracer.setInstanceMaterial(nameOrIndex, material), { key: `part ${nameOrIndex}` });
+  }
+
+  /**
    * Changes the scene by any method of the tracer, between two frames, so that a slow GPU skips edits rather than
    * images. Edits survive a loss of the device.
    *
    * @param options `key`: of several edits with one key that wait, the last one counts.
    * @returns When the image shows it.
    * @example
-   * await viewer.edit((tracer) => tracer.setVisibility('lid', false), { key: 'lid' });
+   * await viewer.edit((tracer) => tracer.setCatcher('floor', true), { key: 'floor' });
    */
   edit(change: (tracer: PathTracer) => void | Promise<void>, options: { readonly key?: string } = {}): Promise<void> {
     sceneOf(this.#engine);

@@ -227,6 +227,33 @@ test('variant, material, exposure, environment and background reach the image', 
   expect((await right())[0]).toBeGreaterThan(green[0] + 30);
   await paintByName(page);
 
+  // Parts are hidden and shown, and take the material of others; the last call of a frame counts.
+  const painted = await right();
+  await page.evaluate(() => window.viewer.setVisibility('right', false));
+  await done(page);
+  const hidden = await right();
+  expect(Math.abs(hidden[0] - painted[0]) + Math.abs(hidden[2] - painted[2])).toBeGreaterThan(30);
+  await page.evaluate(() =>
+    Promise.all([
+      window.viewer.setVisibility('right', false),
+      window.viewer.setVisibility('right', true),
+      window.viewer.setPartMaterial('right', 'left'),
+    ]),
+  );
+  await done(page);
+  const red = await right();
+  expect(red[0]).toBeGreaterThan(2 * red[1]);
+  expect(
+    await page.evaluate(() =>
+      Promise.all([
+        window.viewer.setVisibility('none', false).catch(({ code }: { code: string }) => code),
+        window.viewer.setPartMaterial('right', 'none').catch(({ code }: { code: string }) => code),
+      ]),
+    ),
+  ).toEqual(['renderer/instance', 'renderer/material']);
+  await page.evaluate(() => window.viewer.setPartMaterial('right', 'right'));
+  await done(page);
+
   const bright = await shot(page);
   await page.evaluate(() => void (window.viewer.exposure = -2));
   await expect.poll(async () => (await shot(page)).mean[0]).toBeLessThan(0.7 * bright.mean[0]);
@@ -238,8 +265,8 @@ test('variant, material, exposure, environment and background reach the image', 
     hdr([128, 0, 0, 129]).toString('base64'),
   );
   await done(page);
-  const red = await shot(page);
-  expect(red.mean[0]).toBeGreaterThan(4 * red.mean[1]);
+  const lit = await shot(page);
+  expect(lit.mean[0]).toBeGreaterThan(4 * lit.mean[1]);
 
   // Turning it and changing its intensity goes without a pass over its texels; the fingerprint of a saved film reads
   // some.

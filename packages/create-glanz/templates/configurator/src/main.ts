@@ -19,11 +19,7 @@ async function choose(option: Option, name: string): Promise<void> {
   const parts = new Set(option.choices.flatMap(({ shows }) => shows ?? []));
   await Promise.all([
     ...[...parts].map((part) =>
-      viewer.edit(
-        (tracer) =>
-          tracer.setVisibility(part, chosen.shows?.includes(part) ?? false),
-        { key: part },
-      ),
+      viewer.setVisibility(part, chosen.shows?.includes(part) ?? false),
     ),
     ...Object.entries(chosen.materials ?? {}).map(([material, edit]) =>
       viewer.setMaterial(material, edit),
