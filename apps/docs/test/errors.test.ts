@@ -2,6 +2,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { describe, expect, test } from 'vitest';
 import { codesIn, errorCodes } from '../../../tools/pipeline/error-codes.mjs';
+import { packageFacts } from '../.vitepress/package-facts';
 import { errorClasses } from '../src/error-classes';
 
 const packages = fileURLToPath(new URL('../../../packages', import.meta.url));
@@ -37,9 +38,10 @@ describe('the errors page', () => {
       expect(text.split(/\s+/).length, `words about ${code}`).toBeGreaterThan(7);
       const section = guide
         .slice(0, guide.indexOf(`### \`${code}\``))
-        .match(/^## @glanz\/[\w-]+$/gm)
+        .match(/^## (@glanz\/[\w-]+|create-glanz)$/gm)
         ?.at(-1);
-      expect(section, code).toBe(`## @glanz/${code.split('/')[0]}`);
+      const name = code.split('/')[0]!;
+      expect(section, code).toBe(`## ${packageFacts(name).name}`);
     }
   });
 
