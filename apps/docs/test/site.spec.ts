@@ -176,7 +176,8 @@ test('all pages load without an error, every internal link and anchor leads some
   const lost = links
     .filter(({ to }) => to.origin === origin)
     .filter(({ to }) => {
-      if (to.pathname.startsWith('/playground/')) return fileFor(to.pathname) === undefined;
+      // What is no page of the site.
+      if (/^\/playground\/|\.\w+$/.test(to.pathname)) return fileFor(to.pathname) === undefined;
       const ids = anchors.get(to.pathname);
       return !ids || (to.hash !== '' && !ids.has(decodeURIComponent(to.hash.slice(1))));
     });

@@ -1,10 +1,6 @@
-import { h } from 'vue';
 import type { Theme } from 'vitepress';
+import { defineAsyncComponent, h } from 'vue';
 import DefaultTheme from 'vitepress/theme-without-fonts';
-import FigureGrid from './FigureGrid.vue';
-import FigureTable from './FigureTable.vue';
-import GalleryGrid from './GalleryGrid.vue';
-import ResultPlot from './ResultPlot.vue';
 import HomeGallery from './HomeGallery.vue';
 import LiveBall from './LiveBall.vue';
 import LiveHierarchy from './LiveHierarchy.vue';
@@ -25,10 +21,23 @@ export default {
       if (content?.classList.contains('is-home')) content.setAttribute('role', 'main');
       else content?.removeAttribute('role');
     };
-    app.component('FigureGrid', FigureGrid);
-    app.component('FigureTable', FigureTable);
-    app.component('GalleryGrid', GalleryGrid);
-    app.component('ResultPlot', ResultPlot);
+    // With their data, which most pages do not show.
+    app.component(
+      'FigureGrid',
+      defineAsyncComponent(() => import('./FigureGrid.vue')),
+    );
+    app.component(
+      'FigureTable',
+      defineAsyncComponent(() => import('./FigureTable.vue')),
+    );
+    app.component(
+      'GalleryGrid',
+      defineAsyncComponent(() => import('./GalleryGrid.vue')),
+    );
+    app.component(
+      'ResultPlot',
+      defineAsyncComponent(() => import('./ResultPlot.vue')),
+    );
     app.component('LiveBall', LiveBall);
     app.component('LiveHierarchy', LiveHierarchy);
     app.component('LiveParameters', LiveParameters);
