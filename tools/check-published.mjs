@@ -57,7 +57,10 @@ async function checkSnippets(variant, files, { folder }, verdicts) {
   await compile(variant, copies, folder, verdicts, files.join(', '));
 }
 
-/** Compiles the projects that `npm create glanz` makes against the packed declarations; Next.js is not there. */
+/**
+ * Compiles the projects that `npm create glanz` makes against the packed declarations, but for the one of Next.js, which is not
+ * installed.
+ */
 async function checkTemplates(bundler, { folder }, verdicts) {
   const at = (path) => realpathSync(join(root, path));
   const paths = {

@@ -109,7 +109,7 @@ describe('content', () => {
     expect(Buffer.from(await b.read(hash)).toString()).toBe('content');
   });
 
-  it('of more than 32 MB goes in parts, and is not there before the last one', async () => {
+  it('of more than 32 MB is uploaded in parts, and does not exist before the last one', async () => {
     const [a, b] = [await machine(), await machine()];
     const big = join(temporaryFolder(), 'big.bin');
     writeFileSync(big, Buffer.alloc(33 * 2 ** 20, 'glanz'));
@@ -172,7 +172,7 @@ describe('results', () => {
     expect(filesBelow(other.address.cache as string)).toEqual([]);
   });
 
-  it('an upload that is cut is not there, in part or as a whole', async () => {
+  it('an upload that is interrupted leaves nothing, neither a part nor the whole', async () => {
     const [a, b] = [await machine(), await machine()];
     const text = 'y'.repeat(300_000);
     for (const cut of [/\/objects\//, /\/results\//]) {
