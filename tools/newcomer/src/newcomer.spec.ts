@@ -7,12 +7,8 @@ import { WebIO } from '@gltf-transform/core';
 import { KHRDracoMeshCompression, KHRONOS_EXTENSIONS } from '@gltf-transform/extensions';
 import { expect, test, type Page } from '@playwright/test';
 import draco from 'draco3dgltf';
-import { sees } from './sees';
+import { requested, sees } from './sees';
 import { commandsFrom, fileFrom, installedBy, linesOf, Project, quickStart } from './project';
-
-const only = process.env['GLANZ_NEWCOMER_ONLY'];
-const requested = (name: string) =>
-  test.skip(only !== undefined && only !== name, 'GLANZ_NEWCOMER_ONLY asks for another');
 
 test.setTimeout(600_000);
 test.use({ viewport: { width: 480, height: 320 } });

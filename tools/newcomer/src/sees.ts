@@ -1,5 +1,11 @@
 import { photograph } from '@glanz/browser';
-import { expect, type Page } from '@playwright/test';
+import { expect, test, type Page } from '@playwright/test';
+
+const only = process.env['GLANZ_NEWCOMER_ONLY'];
+
+/** Skips the test where `GLANZ_NEWCOMER_ONLY` asks for another one. */
+export const requested = (name: string): void =>
+  test.skip(only !== undefined && only !== name, 'GLANZ_NEWCOMER_ONLY asks for another');
 
 /** Opens a page and waits until the element shows a path-traced model. @returns What the page complained about. */
 export async function sees(

@@ -1,9 +1,7 @@
 // npm create glanz, each template: from the command to pixels.
 import { expect, test } from '@playwright/test';
 import { Project } from './project';
-import { sees } from './sees';
-
-const only = process.env['GLANZ_NEWCOMER_ONLY'];
+import { requested, sees } from './sees';
 
 test.setTimeout(600_000);
 test.use({ viewport: { width: 480, height: 320 } });
@@ -22,7 +20,7 @@ const STARTERS = [
 
 for (const [template, selector] of STARTERS)
   test(`npm create glanz -- --template ${template}`, async ({ page: browser }) => {
-    test.skip(only !== undefined && only !== `create-${template}`, 'GLANZ_NEWCOMER_ONLY asks for another');
+    requested(`create-${template}`);
     project = new Project(`starter-${template}`);
     await project.create(template);
     await project.install();
