@@ -1,5 +1,5 @@
-// The models of the gallery are part of the built site, so that the playground can open them: /images/models/. Not below
-// /gallery/, since servers would look for the page of that address in a folder of its name.
+// The models of the gallery are part of the built site, so that the playground can open them: /images/models/. They are
+// not below /gallery/, since servers would look for the page of that address in a folder of its name.
 import { execFile } from 'node:child_process';
 import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';

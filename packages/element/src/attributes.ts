@@ -120,7 +120,8 @@ export const ATTRIBUTES = {
    */
   'rotation-per-second': 'text',
   /**
-   * Light: address of a .hdr or .exr, or of a .jpg, .png or .webp (radiance up to 1), `neutral` (a studio), or `auto`: the model's own, or else the studio.
+   * Light: address of a .hdr or .exr, or of a .jpg, .png or .webp (radiance up to 1), `neutral` (a studio), or `auto`:
+   * the model's own, or else the studio.
    * @defaultValue auto
    */
   'environment-image': 'text',
