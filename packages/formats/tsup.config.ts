@@ -5,5 +5,6 @@ export default glanzPackage({
   obj: 'src/obj.ts',
   stl: 'src/stl.ts',
   ies: 'src/ies.ts',
+  usd: 'src/usd/index.ts',
   node: 'src/node.ts',
 });

@@ -7,4 +7,5 @@ export default glanzPackage({
   exr: 'src/exr.ts',
   environment: 'src/environment.ts',
   half: 'src/half.ts',
+  'gain-map': 'src/gain-map.ts',
 });

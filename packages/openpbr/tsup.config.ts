@@ -9,4 +9,5 @@ export default glanzPackage({
   gltf: 'src/gltf/index.ts',
   materialx: 'src/materialx/index.ts',
   presets: 'src/presets/index.ts',
+  versions: 'src/versions/index.ts',
 });

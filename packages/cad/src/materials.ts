@@ -63,7 +63,7 @@ export function checkMaterialMap(json: unknown): CadMaterialMap {
     if (given['preset'] !== undefined && !OPENPBR_PRESET_NAMES.includes(given['preset'] as OpenPbrPresetName))
       fail(
         `${path}/preset`,
-        `is "${given['preset'] as string}", which is no preset; there are ${OPENPBR_PRESET_NAMES.slice(0, 6).join(', ')} and ${OPENPBR_PRESET_NAMES.length - 6} more`,
+        `is "${given['preset'] as string}", which is not a preset; there are ${OPENPBR_PRESET_NAMES.slice(0, 6).join(', ')} and ${OPENPBR_PRESET_NAMES.length - 6} more`,
       );
     if (given['parameters'] === undefined) return;
     const { warnings } = validateParameters(

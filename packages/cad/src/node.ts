@@ -65,7 +65,7 @@ export async function convertCadFile(
       json = JSON.parse((await read(materials)).toString('utf8'));
     } catch (cause) {
       if (cause instanceof CadError) throw cause;
-      throw new CadError('cad/materials', `${materials} is no JSON: ${(cause as Error).message}.`, {
+      throw new CadError('cad/materials', `${materials} is not valid JSON: ${(cause as Error).message}.`, {
         cause,
         location: { file: materials },
       });

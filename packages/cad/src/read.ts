@@ -87,7 +87,8 @@ export function cadFormat(bytes: Uint8Array): CadOptions['format'] {
 export async function readCad(bytes: Uint8Array, options: CadOptions): Promise<CadModel> {
   const { tolerance = { relative: 0.001 }, angularTolerance = 0.35, name = 'The CAD file', openOcct } = options;
   const format = options.format ?? cadFormat(bytes);
-  if (!format) throw new CadError('cad/format', `${name} is no STEP, IGES or BREP file.`, { location: { file: name } });
+  if (!format)
+    throw new CadError('cad/format', `${name} is not a STEP, IGES or BREP file.`, { location: { file: name } });
   const deflection = 'metres' in tolerance ? tolerance.metres : tolerance.relative;
   if (!(deflection > 0 && deflection < Infinity && angularTolerance > 0 && angularTolerance < Math.PI))
     throw new CadError(
@@ -118,7 +119,7 @@ export async function readCad(bytes: Uint8Array, options: CadOptions): Promise<C
     );
   }
   if (!result.success || !result.root || !result.meshes)
-    throw new CadError('cad/unreadable', `${name} cannot be read: OpenCASCADE takes it for broken.`, {
+    throw new CadError('cad/unreadable', `${name} cannot be read: OpenCASCADE finds it damaged.`, {
       location: { file: name },
     });
   const parts: CadPart[] = [];

@@ -26,7 +26,7 @@ export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOption
   const location = { file: name };
   const tilt = /^[ \t]*TILT[ \t]*=[ \t]*(.*?)[ \t]*$/im.exec(text);
   if (!tilt)
-    throw new FormatError('formats/malformed', `${name} is no IES file: it has no line "TILT=".`, { location });
+    throw new FormatError('formats/malformed', `${name} is not an IES file: it has no line "TILT=".`, { location });
   const words = text
     .slice(tilt.index + tilt[0].length)
     .split(/[\s,]+/)
@@ -37,7 +37,7 @@ export function readIes(source: string | Uint8Array, { name = 'IES' }: IesOption
     if (word === undefined) throw new FormatError('formats/truncated', `${name} ends before ${what}.`, { location });
     const value = Number(word);
     if (!Number.isFinite(value))
-      throw new FormatError('formats/malformed', `${name}: ${what} is "${word.slice(0, 40)}", which is no number.`, {
+      throw new FormatError('formats/malformed', `${name}: ${what} is "${word.slice(0, 40)}", which is not a number.`, {
         location,
       });
     return value;

@@ -1,39 +1,23 @@
 import type { Scene } from '@glanz/scene';
+import { decodeWithSharp } from './decode-with-sharp';
 import { FormatError } from './error';
 import { readObj, type ObjOptions } from './obj';
-import type { ImageDecoder } from './resources';
+import type { ResourceReader } from './resources';
 import { readStl } from './stl';
+import { readUsd } from './usd/read';
 
 /** Options for {@link loadModelFile}. */
 export type LoadModelOptions = Omit<ObjOptions, 'read' | 'name'>;
 
-/** Decodes images with the optional package `sharp`. */
-const decodeWithSharp: ImageDecoder = async (bytes) => {
-  const { default: sharp } = await import('sharp').catch((cause: unknown) => {
-    throw new FormatError(
-      'formats/missing-decoder',
-      'Decoding images in Node needs the package "sharp": npm install sharp.',
-      { cause },
-    );
-  });
-  const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 })
-    .toColourspace('srgb')
-    .ensureAlpha()
-    .raw({ depth: 'uchar' })
-    .toBuffer({ resolveWithObject: true });
-  return {
-    width: info.width,
-    height: info.height,
-    data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength),
-  };
-};
-
-/** Whether a file's name is one of those that {@link loadModelFile} reads: `.obj`, `.stl`. */
-export const isModelFile = (path: string): boolean => /\.(obj|stl)$/i.test(path);
+/**
+ * Whether a file's name is one of those that {@link loadModelFile} reads: `.obj`, `.stl`, `.usdz`, `.usdc`, `.usda`,
+ * `.usd`.
+ */
+export const isModelFile = (path: string): boolean => /\.(obj|stl|usd[acz]?)$/i.test(path);
 
 /**
- * Loads an `.obj` or `.stl` file in Node, with the materials and images beside it. Files outside its folder are not
- * read.
+ * Loads an `.obj`, `.stl`, `.usdz`, `.usdc` or `.usda` file in Node, with the materials and images beside it. Files
+ * outside its folder are not read. `up` and `unit` are for files that do not say either: USD does.
  *
  * @throws {FormatError} See its codes.
  * @example
@@ -45,7 +29,9 @@ export async function loadModelFile(path: string | URL, options: LoadModelOption
   const { fileURLToPath } = await import('node:url');
   const file = typeof path === 'string' ? path : fileURLToPath(path);
   if (!isModelFile(file))
-    throw new FormatError('formats/unknown', `${file} is neither .obj nor .stl.`, { location: { file } });
+    throw new FormatError('formats/unknown', `${file} is neither .obj nor .stl nor .usdz, .usdc or .usda.`, {
+      location: { file },
+    });
   const { signal } = options;
   const name = basename(file);
   let bytes: Uint8Array<ArrayBuffer>;
@@ -65,17 +51,15 @@ export async function loadModelFile(path: string | URL, options: LoadModelOption
       ...(options.unit === undefined ? {} : { unit: options.unit }),
     });
   const folder = await realpath(dirname(file));
-  return readObj(bytes, {
-    decodeImage: decodeWithSharp,
-    ...options,
-    name,
-    read: async (inside) => {
-      try {
-        const at = await realpath(join(folder, inside));
-        return at.startsWith(folder + sep) ? new Uint8Array(await readFile(at)) : undefined;
-      } catch {
-        return undefined;
-      }
-    },
-  });
+  const read: ResourceReader = async (inside) => {
+    try {
+      const at = await realpath(join(folder, inside));
+      return at.startsWith(folder + sep) ? new Uint8Array(await readFile(at)) : undefined;
+    } catch {
+      return undefined;
+    }
+  };
+  const { decodeImage = decodeWithSharp } = options;
+  if (/\.usd[acz]?$/i.test(file)) return readUsd(bytes, { name, read, decodeImage, ...(signal ? { signal } : {}) });
+  return readObj(bytes, { ...options, decodeImage, name, read });
 }

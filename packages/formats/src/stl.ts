@@ -62,7 +62,7 @@ function readBinary(bytes: Uint8Array, builder: MeshBuilder, name: string): stri
   if (HEAD + FACET * count > bytes.length)
     throw new FormatError(
       'formats/truncated',
-      `${name} has ${bytes.length} bytes, but ${count} triangles need ${HEAD + FACET * count}: it is cut off, or no STL file.`,
+      `${name} has ${bytes.length} bytes, but ${count} triangles need ${HEAD + FACET * count}: it is truncated, or not an STL file.`,
       { location: { file: name, byteOffset: 80 } },
     );
   for (let i = 0, at = HEAD + 12; i < count; i++, at += FACET) {

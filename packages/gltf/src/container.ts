@@ -58,7 +58,7 @@ function openGlb(bytes: Uint8Array<ArrayBuffer>, view: DataView, name: string, w
     const length = view.getUint32(at, true);
     const type = view.getUint32(at + 4, true);
     if (at + 8 + length > total) throw truncated(at + 8 + length, at);
-    if (length % 4 !== 0) throw malformed(`has a chunk of ${length} bytes, which is no multiple of 4`, at);
+    if (length % 4 !== 0) throw malformed(`has a chunk of ${length} bytes, which is not a multiple of 4`, at);
     const chunk = bytes.subarray(at + 8, at + 8 + length);
     if (!json && type !== JSON_CHUNK) throw malformed('does not start with a JSON chunk', at);
     if (json && type === JSON_CHUNK) throw malformed('has two JSON chunks', at);

@@ -95,7 +95,8 @@ export function unpackDraco(
   };
   try {
     buffer.Init(bytes, bytes.length);
-    if (decoder.GetEncodedGeometryType(buffer) !== draco.TRIANGULAR_MESH) throw new Error('it is no mesh of triangles');
+    if (decoder.GetEncodedGeometryType(buffer) !== draco.TRIANGULAR_MESH)
+      throw new Error('it is not a mesh of triangles');
     const status = decoder.DecodeBufferToMesh(buffer, mesh);
     if (!status.ok() || mesh.ptr === 0) throw new Error(status.error_msg() || 'it is broken');
     const vertices = mesh.num_points(),

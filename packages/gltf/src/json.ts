@@ -13,6 +13,7 @@ export const MATERIAL_EXTENSIONS = [
   'KHR_materials_transmission',
   'KHR_materials_unlit',
   'KHR_materials_volume',
+  'KHR_materials_volume_scatter',
 ] as const;
 /** The parts of a glTF 2.0 document that are read, as they are once the document has been checked. */
 export interface GltfJson {

@@ -4,10 +4,12 @@ import { GltfError } from './error';
 import type { DecodedImage, ImageDecoder } from './decoded-image';
 import { ktx2Decoder } from './ktx2';
 import { buildScene, type GltfOptions } from './load';
-import { missing } from './source';
+import { animationsOf, type OpenAnimationsOptions, type ScenePoser } from './poser';
+import { missing, type Source } from './source';
 
 export { GltfError } from './error';
 export { loadGltf, type GltfOptions, type GltfProgress, type LoadGltfOptions } from './load';
+export type { OpenAnimationsOptions, PoseChange, ScenePoser } from './poser';
 
 /** Loads an optional package, or says which one is missing. */
 async function optional<T>(load: () => Promise<T>, name: string, what: string): Promise<T> {
@@ -87,24 +89,16 @@ export const packagedDecoders = (): GltfDecoders => ({
       .MeshoptDecoder,
 });
 
-/**
- * Loads a .gltf or .glb file in Node, with the files it names beside it. See `loadGltf` for what is read.
- *
- * @param path Of the file. Files outside its folder are not read.
- * @throws {GltfError} See its codes; `gltf/missing-resource` if the file does not exist.
- * @example
- * const scene = await loadGltfFile('models/button.glb');
- */
-export async function loadGltfFile(path: string | URL, options: GltfOptions = {}): Promise<Scene> {
+/** Opens a file with those that it names beside it. @throws {GltfError} `gltf/missing-resource` */
+async function openFile(path: string | URL, signal: AbortSignal | undefined): Promise<Source> {
   const { readFile, realpath, stat } = await import('node:fs/promises');
   const { basename, dirname, join, sep } = await import('node:path');
   const { fileURLToPath } = await import('node:url');
   const file = typeof path === 'string' ? path : fileURLToPath(path);
   const name = basename(file);
-  const { signal } = options;
   const read = async (at: string) => {
     // Pipes and devices may never end.
-    if (!(await stat(at)).isFile()) throw new Error('it is no file');
+    if (!(await stat(at)).isFile()) throw new Error('it is not a file');
     return new Uint8Array(await readFile(at, signal ? { signal } : {}));
   };
   let bytes: Uint8Array<ArrayBuffer>;
@@ -119,26 +113,55 @@ export async function loadGltfFile(path: string | URL, options: GltfOptions = {}
     );
   }
   const folder = await realpath(dirname(file));
-  return buildScene(
-    {
-      name,
-      bytes,
-      read: async (uri) => {
-        const at = join(folder, uri);
-        try {
-          if (!(await realpath(at)).startsWith(folder + sep))
-            throw new Error('it lies outside the folder of the document');
-          return await read(at);
-        } catch (cause) {
-          signal?.throwIfAborted();
-          throw missing(uri, name, cause);
-        }
-      },
+  return {
+    name,
+    bytes,
+    read: async (uri) => {
+      const at = join(folder, uri);
+      try {
+        if (!(await realpath(at)).startsWith(folder + sep))
+          throw new Error('it lies outside the folder of the document');
+        return await read(at);
+      } catch (cause) {
+        signal?.throwIfAborted();
+        throw missing(uri, name, cause);
+      }
     },
-    {
-      ...options,
-      decodeImage: options.decodeImage ?? decodeImage,
-      decoders: { ...packagedDecoders(), ...options.decoders },
-    },
-  );
+  };
+}
+
+/**
+ * Loads a .gltf or .glb file in Node, with the files it names beside it. See `loadGltf` for what is read.
+ *
+ * @param path Of the file. Files outside its folder are not read.
+ * @throws {GltfError} See its codes; `gltf/missing-resource` if the file does not exist.
+ * @example
+ * const scene = await loadGltfFile('models/button.glb');
+ */
+export async function loadGltfFile(path: string | URL, options: GltfOptions = {}): Promise<Scene> {
+  return buildScene(await openFile(path, options.signal), {
+    ...options,
+    decodeImage: options.decodeImage ?? decodeImage,
+    decoders: { ...packagedDecoders(), ...options.decoders },
+  });
+}
+
+/**
+ * Opens the animations of a .gltf or .glb file in Node, to pose at any time the scene that {@link loadGltfFile} has
+ * loaded from it. See `openAnimations` of `@glanz/gltf/animation`.
+ *
+ * @throws {GltfError} As `openAnimations`; `gltf/missing-resource` if the file does not exist.
+ * @example
+ * const poser = await openAnimationsFile('robot.glb', await loadGltfFile('robot.glb'));
+ * const { transforms } = poser.pose('walk', 0.5);
+ */
+export async function openAnimationsFile(
+  path: string | URL,
+  scene: Scene,
+  options: Pick<OpenAnimationsOptions, 'signal' | 'decoders' | 'limits' | 'scene'> = {},
+): Promise<ScenePoser> {
+  return animationsOf(await openFile(path, options.signal), scene, {
+    ...options,
+    decoders: { ...packagedDecoders(), ...options.decoders },
+  });
 }

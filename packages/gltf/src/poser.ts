@@ -341,6 +341,15 @@ export async function openAnimations(
     onBytes: () => undefined,
   });
   signal?.throwIfAborted();
+  return animationsOf(source, scene, options);
+}
+
+/** Opens the animations of an opened source; shared by all loaders. */
+export async function animationsOf(
+  source: Source,
+  scene: Scene,
+  options: Pick<OpenAnimationsOptions, 'signal' | 'decoders' | 'limits' | 'scene'>,
+): Promise<ScenePoser> {
   if (scene.animatedParts?.length !== scene.instances.length)
     throw new GltfError('gltf/no-such-part', `${source.name} has no animations that were loaded with its scene.`, {
       location: { file: source.name },

@@ -55,6 +55,42 @@ describe('factors', () => {
     expect(material.parameters.geometry_opacity).toBeUndefined();
   });
 
+  test('a volume that scatters, by either name of its factor; drafts that still change are left out with a warning', async () => {
+    const material = (more: object) => ({
+      extensions: {
+        KHR_materials_transmission: { transmissionFactor: 1 },
+        KHR_materials_volume: { thicknessFactor: 1, attenuationDistance: 2, attenuationColor: [0.5, 0.6, 0.7] },
+        ...more,
+      },
+    });
+    const used =
+      (...names: string[]) =>
+      (json: TriangleJson) =>
+        void (json['extensionsUsed'] = ['KHR_materials_transmission', 'KHR_materials_volume', ...names]);
+    const [current, former] = await Promise.all(
+      ['multiscatterColorFactor', 'multiscatterColor'].map(async (name) => {
+        const scene = await withMaterial(
+          material({ KHR_materials_volume_scatter: { [name]: [0.9, 0.5, 0.1], scatterAnisotropy: 7 } }),
+          used('KHR_materials_volume_scatter'),
+        );
+        expect(scene.warnings.map(({ path }) => path)).toEqual([
+          '/materials/0/extensions/KHR_materials_volume_scatter/scatterAnisotropy',
+        ]);
+        return only(scene).parameters;
+      }),
+    );
+    expect(current!.transmission_scatter!.every((s) => s > 0)).toBe(true);
+    expect(current!.transmission_scatter_anisotropy).toBe(1);
+    expect(former).toEqual(current);
+    for (const name of ['KHR_materials_scatter', 'KHR_materials_retroreflection']) {
+      const { warnings, materials } = await withMaterial(material({ [name]: {} }), used(name));
+      expect(materials[0]!.parameters.transmission_scatter).toBeUndefined();
+      expect(warnings.map(({ code, message }) => [code, message.includes(name)])).toEqual([
+        ['gltf/ignored-extension', true],
+      ]);
+    }
+  });
+
   test('MASK has a threshold, BLEND a coverage', async () => {
     const mask = only(
       await withMaterial({

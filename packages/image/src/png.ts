@@ -1,6 +1,7 @@
 import { zlibSync } from 'fflate';
 import { concat } from './bytes';
 import { checkSize, ImageError } from './error';
+import { filterRows, type PngRows } from './png-filter';
 
 /** Input of {@link encodePng}. */
 export interface PngSource {
@@ -36,73 +37,8 @@ function chunk(type: string, data: Uint8Array, table: Uint32Array): Uint8Array {
   return out;
 }
 
-/** The nearest of left, above and above left to their plane; in this order where they are as near. */
-function paeth(a: number, b: number, c: number): number {
-  const pa = Math.abs(b - c);
-  const pb = Math.abs(a - c);
-  const pc = Math.abs(a + b - 2 * c);
-  return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
-}
-
-/**
- * The five filters of PNG, each in a loop of its own: images have tens of millions of bytes. Rows lie behind `left`
- * zeros, the bytes of a pixel.
- */
-const FILTERS: readonly ((out: Uint8Array, row: Uint8Array, above: Uint8Array, left: number) => void)[] = [
-  (out, row, _, left) => out.set(row.subarray(left)),
-  (out, row, _, left) => {
-    for (let i = 0; i < out.length; i++) out[i] = (row[i + left] as number) - (row[i] as number);
-  },
-  (out, row, above, left) => {
-    for (let i = 0; i < out.length; i++) out[i] = (row[i + left] as number) - (above[i + left] as number);
-  },
-  (out, row, above, left) => {
-    for (let i = 0; i < out.length; i++)
-      out[i] = (row[i + left] as number) - (((row[i] as number) + (above[i + left] as number)) >> 1);
-  },
-  (out, row, above, left) => {
-    for (let i = 0; i < out.length; i++)
-      out[i] = (row[i + left] as number) - paeth(row[i] as number, above[i + left] as number, above[i] as number);
-  },
-];
-
-/**
- * Filters every row with the filter of the smallest sum of absolute differences, the heuristic of the PNG
- * specification.
- */
-function filterRows(raw: Uint8Array, height: number, rowBytes: number, pixelBytes: number): Uint8Array {
-  const out = new Uint8Array((rowBytes + 1) * height);
-  const trial = new Uint8Array(rowBytes);
-  let row = new Uint8Array(pixelBytes + rowBytes);
-  let above = new Uint8Array(pixelBytes + rowBytes);
-  for (let y = 0; y < height; y++) {
-    row.set(raw.subarray(y * rowBytes, (y + 1) * rowBytes), pixelBytes);
-    let best = Infinity;
-    for (const [filter, apply] of FILTERS.entries()) {
-      apply(trial, row, above, pixelBytes);
-      let sum = 0;
-      for (let i = 0; i < rowBytes; i++) {
-        const v = trial[i] as number;
-        sum += v < 128 ? v : 256 - v;
-      }
-      if (sum < best) {
-        best = sum;
-        out[y * (rowBytes + 1)] = filter;
-        out.set(trial, y * (rowBytes + 1) + 1);
-      }
-    }
-    [row, above] = [above, row];
-  }
-  return out;
-}
-
-/**
- * Encodes sRGB codes as PNG, 8 or 16 bits per channel, with an sRGB chunk. An image that is opaque everywhere is
- * written without its alpha channel.
- *
- * @throws {ImageError} `image/size` if the array does not hold width × height RGBA pixels.
- */
-export function encodePng({ width, height, data, text = {}, level = 6 }: PngSource): Uint8Array<ArrayBuffer> {
+/** The rows of an image, without its alpha channel if it is opaque everywhere. */
+function rowsOf({ width, height, data }: PngSource): PngRows {
   checkSize('PNG', width, height, Infinity);
   const count = width * height;
   if (data.length !== count * 4)
@@ -124,15 +60,23 @@ export function encodePng({ width, height, data, text = {}, level = 6 }: PngSour
     }
   }
   const pixelBytes = channels * sample;
-  const pixels = zlibSync(filterRows(raw, height, width * pixelBytes, pixelBytes), { level: level as 6 });
+  return { raw, rowBytes: width * pixelBytes, pixelBytes };
+}
 
+/** The file around its compressed pixels. @param parts Each becomes a chunk. */
+function pngOf(
+  { width, height, data, text = {} }: PngSource,
+  { pixelBytes }: PngRows,
+  parts: readonly Uint8Array[],
+): Uint8Array<ArrayBuffer> {
   const table = crcTable();
+  const sample = data instanceof Uint16Array ? 2 : 1;
   const header = new Uint8Array(13);
   const view = new DataView(header.buffer);
   view.setUint32(0, width);
   view.setUint32(4, height);
   header[8] = sample * 8;
-  header[9] = channels === 4 ? 6 : 2;
+  header[9] = pixelBytes === 4 * sample ? 6 : 2;
   const gamma = new Uint8Array(4);
   // 1/2.2 in hundred-thousandths: for readers that know gAMA but not sRGB, as the specification asks.
   new DataView(gamma.buffer).setUint32(0, 45455);
@@ -143,7 +87,64 @@ export function encodePng({ width, height, data, text = {}, level = 6 }: PngSour
     chunk('sRGB', Uint8Array.of(0), table),
     chunk('gAMA', gamma, table),
     ...Object.entries(text).map(([key, value]) => chunk('tEXt', latin1(`${key.slice(0, 79)}\0${value}`), table)),
-    chunk('IDAT', pixels, table),
+    ...parts.map((part) => chunk('IDAT', part, table)),
     chunk('IEND', new Uint8Array(0), table),
   ]);
+}
+
+/**
+ * Encodes sRGB codes as PNG, 8 or 16 bits per channel, with an sRGB chunk. An image that is opaque everywhere is
+ * written without its alpha channel.
+ *
+ * @throws {ImageError} `image/size` if the array does not hold width × height RGBA pixels.
+ */
+export function encodePng(source: PngSource): Uint8Array<ArrayBuffer> {
+  const rows = rowsOf(source);
+  const filtered = filterRows(rows, 0, source.height);
+  return pngOf(source, rows, [zlibSync(filtered, { level: (source.level ?? 6) as 6 })]);
+}
+
+/** Bytes that are compressed at once: matches do not reach across, which costs less than 1 % of the size. */
+const BAND_BYTES = 2 ** 22;
+
+/** Adler-32 (RFC 1950). @param sum Of the bytes before these. */
+function adler32(bytes: Uint8Array, sum: number): number {
+  let [a, b] = [sum & 65535, sum >>> 16];
+  for (let at = 0; at < bytes.length;) {
+    // As many as 32 bits hold.
+    for (const end = Math.min(at + 3800, bytes.length); at < end; at++) b += a += bytes[at] as number;
+    a %= 65521;
+    b %= 65521;
+  }
+  return ((b << 16) | a) >>> 0;
+}
+
+/**
+ * {@link encodePng} for large images, whose rows are compressed in bands of 4 MiB by a function that may work on several
+ * at the same time, such as zlib on the threads of Node. The bands do not depend on how many those are, so the bytes are
+ * the same as long as the function's are.
+ *
+ * @param deflate Compresses bytes into a raw DEFLATE stream that ends at a whole byte and has no final block, so that
+ * another one can follow: what zlib gives with `finishFlush: Z_SYNC_FLUSH`. It must not refer to the bytes before.
+ * @throws {ImageError} `image/size` if the array does not hold width × height RGBA pixels; and what `deflate` throws.
+ */
+export async function encodePngAsync(
+  source: Omit<PngSource, 'level'>,
+  deflate: (bytes: Uint8Array<ArrayBuffer>) => Promise<Uint8Array>,
+): Promise<Uint8Array<ArrayBuffer>> {
+  const rows = rowsOf(source);
+  const bandRows = Math.max(1, Math.floor(BAND_BYTES / rows.rowBytes));
+  const bands: Promise<Uint8Array>[] = [];
+  let sum = 1;
+  for (let first = 0; first < source.height; first += bandRows) {
+    const filtered = filterRows(rows, first, Math.min(first + bandRows, source.height));
+    sum = adler32(filtered, sum);
+    const band = deflate(filtered);
+    // Awaited below; an error before that is not unhandled.
+    band.catch(() => undefined);
+    bands.push(band);
+  }
+  // A final block without bytes, and the checksum of all bytes.
+  const end = Uint8Array.of(0x03, 0x00, sum >>> 24, sum >>> 16, sum >>> 8, sum);
+  return pngOf(source, rows, [Uint8Array.of(0x78, 0x9c), ...(await Promise.all(bands)), end]);
 }

@@ -1,6 +1,7 @@
+import { constants, deflateRaw, inflateSync } from 'node:zlib';
 import sharp from 'sharp';
 import { describe, expect, it } from 'vitest';
-import { encodePng, ImageError } from '../src/index';
+import { encodePng, encodePngAsync, ImageError } from '../src/index';
 import { randomNumbers } from './shared';
 
 /** An image with flat parts, gradients and noise, so that every filter is used. */
@@ -63,5 +64,44 @@ describe('encodePng', () => {
   it('refuses an array of the wrong length and an empty image', () => {
     expect(() => encodePng({ width: 2, height: 2, data: new Uint8Array(12) })).toThrow(ImageError);
     expect(() => encodePng({ width: 0, height: 2, data: new Uint8Array(0) })).toThrow(/0×2/);
+  });
+});
+
+describe('encodePngAsync', () => {
+  const deflate = (bytes: Uint8Array) =>
+    new Promise<Uint8Array>((done, fail) =>
+      deflateRaw(bytes, { finishFlush: constants.Z_SYNC_FLUSH }, (error, out) => (error ? fail(error) : done(out))),
+    );
+
+  it.each([
+    ['one band', 64, 33],
+    ['several, the last one of fewer rows', 2000, 1777],
+  ])('%s: sharp reads the same pixels', async (_, width, height) => {
+    const data = image(new Uint8Array(width * height * 4), width, 255, false);
+    const read = await sharp(await encodePngAsync({ width, height, data }, deflate))
+      .raw()
+      .toBuffer();
+    expect(Buffer.compare(read, Buffer.from(data))).toBe(0);
+  });
+
+  it('16 bits, opaque: the chunks join to the stream of zlib with its checksum', async () => {
+    const [width, height] = [1500, 1300];
+    const data = image(new Uint16Array(width * height * 4), width, 65535, true);
+    const png = Buffer.from(await encodePngAsync({ width, height, data, text: { Software: 'glanz' } }, deflate));
+    const parts: Buffer[] = [];
+    for (let at = 8; at < png.length; at += 12 + png.readUInt32BE(at))
+      if (png.toString('latin1', at + 4, at + 8) === 'IDAT')
+        parts.push(png.subarray(at + 8, at + 8 + png.readUInt32BE(at)));
+    expect(parts.length).toBeGreaterThan(4);
+    // Node's zlib checks the checksum, which libpng may ignore.
+    expect(inflateSync(Buffer.concat(parts)).length).toBe(height * (1 + width * 6));
+    const codes = await sharp(png).ensureAlpha().toColourspace('rgb16').raw({ depth: 'ushort' }).toBuffer();
+    expect(Buffer.compare(codes, Buffer.from(data.buffer))).toBe(0);
+  });
+
+  it('fails as the compression does', async () => {
+    const source = { width: 2, height: 2, data: new Uint8Array(16) };
+    await expect(encodePngAsync(source, () => Promise.reject(new Error('no memory')))).rejects.toThrow('no memory');
+    await expect(encodePngAsync({ ...source, height: 3 }, deflate)).rejects.toThrow(ImageError);
   });
 });

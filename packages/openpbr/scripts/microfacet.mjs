@@ -76,7 +76,7 @@ export function interfaceAlbedo(rings, spokes) {
         let hx = ax * (radius * cos[i] + vx);
         let hy = ay * (radius * sin[i] + vy);
         let hz = z + vz;
-        const length = Math.hypot(hx, hy, hz);
+        const length = Math.sqrt(hx * hx + hy * hy + hz * hz);
         hx /= length;
         hy /= length;
         hz /= length;

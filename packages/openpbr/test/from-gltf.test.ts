@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { coatedBase } from '../src/cpu/index';
+import { coatedBase, subsurfaceMedium, transmissionMedium } from '../src/cpu/index';
 import { fromGltf, gltfTextures, type GltfMaterialExtensions, type GltfMaterialFactors } from '../src/gltf/index';
 import {
   OPENPBR_PARAMETERS,
@@ -262,6 +262,65 @@ describe('KHR_materials_sheen', () => {
       fuzz_roughness: 0.164 + 0.453 - 0.07025,
     });
     expect(mapped({ KHR_materials_sheen: { sheenRoughnessFactor: 0.5 } })).toEqual(plain);
+  });
+});
+
+describe('KHR_materials_volume_scatter', () => {
+  const volume = { thicknessFactor: 1, attenuationDistance: 0.02, attenuationColor: [0.9, 0.4, 0.001] };
+  const scatter = { multiscatterColorFactor: [0.572, 0.227, 0.9], scatterAnisotropy: 0.3 };
+  /** The extension's formula of the single-scattering albedo, as its text has it. */
+  const single = (m: number) => 1 - (4.09712 + 4.20863 * m - Math.sqrt(9.59217 + 41.6808 * m + 17.7126 * m ** 2)) ** 2;
+
+  it('in what is clear: σt = −ln(c)/d, σs = ρss·σt, phase function of g', () => {
+    for (const given of [scatter, { multiscatterColor: scatter.multiscatterColorFactor, scatterAnisotropy: 0.3 }]) {
+      const { parameters, warnings } = validateParameters(
+        mapped({
+          KHR_materials_transmission: { transmissionFactor: 1 },
+          KHR_materials_volume: volume,
+          KHR_materials_volume_scatter: given,
+        }),
+      );
+      expect(warnings).toEqual([]);
+      const medium = transmissionMedium(resolveParameters(parameters));
+      expect(medium.anisotropy).toBe(0.3);
+      volume.attenuationColor.forEach((c, k) => {
+        const attenuation = -Math.log(c) / volume.attenuationDistance;
+        expect(medium.extinction[k]! / attenuation).toBeCloseTo(1, 9);
+        expect(medium.scattering[k]! / (attenuation * single(scatter.multiscatterColorFactor[k]!))).toBeCloseTo(1, 9);
+      });
+    }
+  });
+
+  it('entered by diffuse transmission: the subsurface of that colour, with the attenuation as extinction', () => {
+    const given = mapped({
+      KHR_materials_diffuse_transmission: { diffuseTransmissionFactor: 0.8 },
+      KHR_materials_volume: volume,
+      KHR_materials_volume_scatter: scatter,
+    });
+    expect(given).toMatchObject({
+      subsurface_weight: 0.8,
+      subsurface_color: scatter.multiscatterColorFactor,
+      subsurface_scatter_anisotropy: 0.3,
+    });
+    const medium = subsurfaceMedium(resolveParameters(given));
+    volume.attenuationColor.forEach((c, k) =>
+      expect((medium.extinction[k]! * volume.attenuationDistance) / -Math.log(c)).toBeCloseTo(1, 9),
+    );
+  });
+
+  it('does nothing without a volume, or where nothing is attenuated', () => {
+    const clear = { KHR_materials_transmission: { transmissionFactor: 1 } };
+    expect(mapped({ ...clear, KHR_materials_volume_scatter: scatter })).toEqual(mapped(clear));
+    const thick = { ...clear, KHR_materials_volume: { thicknessFactor: 1 } };
+    expect(mapped({ ...thick, KHR_materials_volume_scatter: scatter })).toEqual(mapped(thick));
+  });
+
+  it('its texture is lost', () => {
+    const { uses, lost } = gltfTextures({
+      extensions: { KHR_materials_volume_scatter: { ...scatter, multiscatterColorTexture: { index: 0 } } },
+    });
+    expect(uses).toEqual([]);
+    expect(lost.map(({ path }) => path)).toEqual(['extensions/KHR_materials_volume_scatter/multiscatterColorTexture']);
   });
 });
 

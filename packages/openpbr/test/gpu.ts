@@ -94,7 +94,7 @@ export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Pro
     cases.flatMap(({ wo, wi, u, side }) => [...wo, Number(side?.inside ?? false), ...wi, side?.outerIor ?? 1, ...u, 0]),
   );
   const words = 24;
-  const bytes = await runCompute(await testDevice(), gpuShader(flags).code, {
+  const bytes = await runCompute(await testDevice({ driver: 'swiftshader' }), gpuShader(flags).code, {
     inputs: [tables, materials, directions],
     outputBytes: cases.length * words * 4,
     workgroups: Math.ceil(cases.length / 64),

@@ -10,6 +10,7 @@ import {
   type BsdfOptions,
   type Slopes,
 } from '../src/cpu/index';
+import { length3 } from '../src/cpu/vector';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 
 /** A direction by cosine and azimuth. */
@@ -43,7 +44,7 @@ export function integrateHemisphere(
   const bounds = new Map(slopes.map((alpha) => [alpha, ggxBound(alpha, wo)]));
   const density = (alpha: Slopes, wi: OpenPbrVector): number => {
     const h: [number, number, number] = [wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]];
-    const length = Math.hypot(...h);
+    const length = length3(...h);
     const [x, y, z] = [h[0] / length, h[1] / length, h[2] / length];
     const t = (x / alpha[0]) ** 2 + (y / alpha[1]) ** 2 + z * z;
     return (
@@ -54,7 +55,7 @@ export function integrateHemisphere(
         alpha[1] *
         t *
         t *
-        ((bounds.get(alpha) as number) * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])))
+        ((bounds.get(alpha) as number) * wo[2] + length3(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])))
     );
   };
   const uniform = 1 / (2 * Math.PI);

@@ -11,7 +11,7 @@ import {
 import { presets } from './oracle/index';
 
 describe('parameter table', () => {
-  it('holds the 41 parameters of OpenPBR 1.1', () => {
+  it('holds the 41 parameters of OpenPBR 1.1.1', () => {
     expect(OPENPBR_PARAMETER_NAMES).toHaveLength(41);
     for (const name of OPENPBR_PARAMETER_NAMES) expect(OPENPBR_PARAMETERS[name].name).toBe(name);
   });

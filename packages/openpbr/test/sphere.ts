@@ -14,6 +14,7 @@ import {
   type BsdfOptions,
   type Slopes,
 } from '../src/cpu/index';
+import { length3 } from '../src/cpu/vector';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 
 /** Reflected and transmitted parts of uniform light, and the integral of the density over the sphere. */
@@ -52,11 +53,11 @@ function reflection(alpha: Slopes, wo: OpenPbrVector, side: 1 | -1): Technique {
     density: (wi) => {
       const up = turn(wi);
       const h: [number, number, number] = [wo[0] + up[0], wo[1] + up[1], wo[2] + up[2]];
-      const length = Math.hypot(...h);
+      const length = length3(...h);
       return up[2] <= 0
         ? 0
         : ggxDistribution(alpha, [h[0] / length, h[1] / length, h[2] / length]) /
-            (2 * (bound * wo[2] + Math.hypot(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
+            (2 * (bound * wo[2] + length3(alpha[0] * wo[0], alpha[1] * wo[1], wo[2])));
     },
   };
 }

@@ -326,7 +326,7 @@ describe('transmission', () => {
     expect(transmitted[2]).toBeCloseTo(transmitted[0], 12);
   });
 
-  it('gives weights and densities that fit, bounded by 4, and openpbr_albedo within 0.06, 5000 random surfaces (seed 64)', () => {
+  it('gives weights and densities that fit, bounded by 4, and openpbr_albedo within 0.005, 5000 random surfaces (seed 64)', () => {
     const next = uniform(64);
     let through = 0,
       largest = 0;
@@ -361,7 +361,8 @@ describe('transmission', () => {
       const wo = direction(0.7);
       const { reflected, transmitted } = sphereFurnace(p, wo, { inside });
       albedoBsdf(prepareBsdf(p, wo, { inside }), wo).forEach((value, k) =>
-        expect(Math.abs(value - (reflected[k] as number) - (transmitted[k] as number))).toBeLessThan(0.06),
+        // As of opaque surfaces without metal: the tables' interpolation.
+        expect(Math.abs(value - (reflected[k] as number) - (transmitted[k] as number))).toBeLessThan(0.005),
       );
     }
   });

@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl/module';
-import { finite, mapRgb, tonemapFinite } from './finite';
+import { finite, tonemapFinite } from './finite';
 import type { Rgb } from './names';
 
 /**
@@ -32,14 +32,18 @@ export const tonemapNeutral = wgslModule(
   [tonemapFinite],
 );
 
-/** CPU twin of {@link tonemapNeutral}. */
-export function neutralToneMap(rgb: Rgb): [number, number, number] {
-  const c = finite(rgb);
-  const x = Math.min(c[0], c[1], c[2]);
+/** CPU twin of {@link tonemapNeutral}. @param out Becomes the result: images have tens of millions of pixels. */
+export function neutralToneMap(rgb: Rgb, out: [number, number, number] = [0, 0, 0]): [number, number, number] {
+  const [r, g, b] = finite(rgb);
+  const x = Math.min(r, g, b);
   const offset = x <= 2 * F90 ? x - (x * x) / (4 * F90) : F90;
-  const peak = Math.max(c[0], c[1], c[2]) - offset;
-  if (peak <= START) return mapRgb(c, (v) => v - offset);
+  const peak = Math.max(r, g, b) - offset;
+  const isBase = peak <= START;
   const compressed = 1 - (1 - START) ** 2 / (peak + 1 - 2 * START);
   const keep = 1 / (DESATURATION * (peak - compressed) + 1);
-  return mapRgb(c, (v) => compressed + ((v - offset) / peak - 1) * compressed * keep);
+  const curve = (v: number) => (isBase ? v - offset : compressed + ((v - offset) / peak - 1) * compressed * keep);
+  out[0] = curve(r);
+  out[1] = curve(g);
+  out[2] = curve(b);
+  return out;
 }

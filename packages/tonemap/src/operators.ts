@@ -9,7 +9,8 @@ import { reinhardToneMap, tonemapReinhard } from './reinhard';
 /** One view transform: the WGSL module that declares `tonemap_<name>`, and its CPU twin. Linear in, linear 0..1 out. */
 export interface ToneMapOperator {
   readonly wgsl: WgslModule;
-  readonly map: (rgb: Rgb) => [number, number, number];
+  /** @param out May become the result; may be the colour itself. */
+  readonly map: (rgb: Rgb, out?: [number, number, number]) => [number, number, number];
 }
 
 const OPERATORS: Readonly<Record<ToneMap, ToneMapOperator>> = {

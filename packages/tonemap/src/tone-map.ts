@@ -97,18 +97,15 @@ export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
   const [top, round] = output === 'uint8' ? [255, 0.5] : output === 'uint16' ? [65535, 0.5] : [1, 0];
   const store = round === 0 ? (v: number) => v : (v: number) => Math.floor(v * top + round);
   const encode = output === 'uint8' ? srgbByteEncoder() : (v: number) => store(srgbEncode(v));
+  // Not a new one for each pixel.
+  const linear: [number, number, number] = [0, 0, 0];
   for (let i = 0; i < out.length; i += 4) {
     const coverage = rgba[i + 3] as number;
     const alpha = straight ? (coverage > 0 ? Math.min(coverage, 1) : 0) : 1;
     const scale = alpha > 0 ? exposure / alpha : 0;
-    const [r, g, b] = map([
-      (rgba[i] as number) * scale,
-      (rgba[i + 1] as number) * scale,
-      (rgba[i + 2] as number) * scale,
-    ]);
-    out[i] = encode(r);
-    out[i + 1] = encode(g);
-    out[i + 2] = encode(b);
+    for (let k = 0; k < 3; k++) linear[k] = (rgba[i + k] as number) * scale;
+    const mapped = map(linear, linear);
+    for (let k = 0; k < 3; k++) out[i + k] = encode(mapped[k] as number);
     out[i + 3] = store(alpha);
   }
   return out as Outputs[O];

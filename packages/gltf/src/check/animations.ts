@@ -105,7 +105,7 @@ function isSoundChannel(
   const nodes = context.list('nodes');
   if (typeof node !== 'number' || !nodes[node]) return lost(`moves node ${quote(node)}, which is none`);
   const type = typeof part === 'string' && Object.hasOwn(PATHS, part) ? PATHS[part] : undefined;
-  if (type === undefined) return lost(`moves ${quote(part)}, which is no part of a node`);
+  if (type === undefined) return lost(`moves ${quote(part)}, which is not a part of a node`);
   const keys =
     (facts[sampler['input'] as number] as AccessorFacts).count * (sampler['interpolation'] === 'CUBICSPLINE' ? 3 : 1);
   const values = facts[sampler['output'] as number] as AccessorFacts;

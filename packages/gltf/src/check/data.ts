@@ -91,7 +91,7 @@ export function checkBuffers(context: CheckContext): readonly Raw[] {
     const stride = context.integer(view, 'byteStride', path, 4, 252, 4);
     const target = own(view, 'target');
     if (target !== undefined && target !== 34962 && target !== 34963)
-      context.warn('gltf/data', `${path}/target`, `is ${quote(target)}, which is no kind of data`);
+      context.warn('gltf/data', `${path}/target`, `is ${quote(target)}, which is not a kind of data`);
     if (stride % 4 !== 0) context.fail(`${path}/byteStride`, 'must be a multiple of 4');
     if (own(view, 'byteStride') !== undefined && (stride > length || target === 34963))
       context.warn(
@@ -191,7 +191,7 @@ function checkRange(
   if (stride < step) context.fail(path, `has elements of ${step} bytes in a buffer view with a stride of ${stride}`);
   const start = ((own(view, 'byteOffset') as number | undefined) ?? 0) + offset;
   if (offset % alignment !== 0 || start % alignment !== 0)
-    context.fail(path, `starts at byte ${start}, which is no multiple of its components' ${alignment} bytes`);
+    context.fail(path, `starts at byte ${start}, which is not a multiple of its components' ${alignment} bytes`);
   const end = offset + stride * (count - 1) + used;
   if (end > (view['byteLength'] as number))
     context.fail(path, `reads to byte ${end} of a buffer view of ${view['byteLength']}`);

@@ -60,6 +60,11 @@ const EXTENSIONS: Readonly<Record<(typeof MATERIAL_EXTENSIONS)[number], readonly
     ['attenuationDistance', 0, Infinity, 0, Infinity],
     ['attenuationColor', 3, 1, 0, 1],
   ],
+  KHR_materials_volume_scatter: [
+    ['multiscatterColor', 3, 0, 0, 1],
+    ['multiscatterColorFactor', 3, 0, 0, 1],
+    ['scatterAnisotropy', 0, 0, -1, 1],
+  ],
 };
 const TRANSFORM: readonly Factor[] = [
   ['offset', 2, 0, -LARGEST, LARGEST],
@@ -107,7 +112,7 @@ function texturesOf(context: CheckContext, object: Raw, path: string): Raw {
       !Number.isInteger(info['index']) ||
       (info['texCoord'] !== undefined && !Number.isInteger(info['texCoord']))
     ) {
-      context.warn('gltf/texture', at, `is ${quote(info)}, which is no texture; it is left out`);
+      context.warn('gltf/texture', at, `is ${quote(info)}, which is not a texture; it is left out`);
       delete repaired[key];
       continue;
     }

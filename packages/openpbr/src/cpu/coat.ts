@@ -3,7 +3,7 @@ import { interfaceEnergy } from './dielectric';
 import { energyAlbedo, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxAlpha, ggxBound, viewRoughness, type Slopes } from './ggx';
-import { clamp, dot } from './vector';
+import { clamp, dot, length2, length3 } from './vector';
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
@@ -33,7 +33,7 @@ export interface Coat {
 export type CoatFrame = readonly [tangent: OpenPbrVector, bitangent: OpenPbrVector, normal: OpenPbrVector];
 
 const unit = (v: OpenPbrVector): OpenPbrVector => {
-  const length = Math.hypot(...v);
+  const length = length3(...v);
   return [v[0] / length, v[1] / length, v[2] / length];
 };
 const plus = (a: OpenPbrVector, b: OpenPbrVector, t: number): OpenPbrVector => [
@@ -75,7 +75,7 @@ export const outOfCoat = (frame: CoatFrame | undefined, w: OpenPbrVector): OpenP
 export function coatRoughening(roughness: number, coatRoughness: number, coatIor: number): number {
   const eta = Math.min(coatIor, 1e3);
   const blur = ((1.05 * (eta - 1) * Math.sqrt(1 + eta * eta)) / eta) * coatRoughness * coatRoughness;
-  return Math.max(roughness, Math.sqrt(0.85 * Math.tanh(Math.hypot(eta * roughness * roughness, blur) / 0.85)));
+  return Math.max(roughness, Math.sqrt(0.85 * Math.tanh(length2(eta * roughness * roughness, blur) / 0.85)));
 }
 
 /** The base below the coat: rougher, and with the step of the index that is left; twin of `openpbr_coat_base`. */

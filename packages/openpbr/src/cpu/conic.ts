@@ -1,6 +1,6 @@
 import type { OpenPbrVector } from '../parameters/index';
 import type { Slopes } from './ggx';
-import { clamp } from './vector';
+import { clamp, length2, length3 } from './vector';
 
 /** Facets a with a² ≤ (a·wo) (a·axis), axis = lean p̂ + upright z. */
 export type Conic = readonly [lean: number, upright: number];
@@ -18,10 +18,10 @@ export interface SeenFacets {
 /** Sums over facets within conics, seen from `wo`; `openpbrInside` says how they are chosen. */
 export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
   const [ax, ay] = alpha;
-  const flat = Math.hypot(ax * wo[0], ay * wo[1]);
+  const flat = length2(ax * wo[0], ay * wo[1]);
   const towards = flat > 1e-10 ? ([(ax * wo[0]) / flat, (ay * wo[1]) / flat] as const) : ([1, 0] as const);
   // Where facets are stretched to a round highlight the view has this sine and cosine.
-  const length = Math.hypot(flat, wo[2]);
+  const length = length2(flat, wo[2]);
   const sine = flat / length;
   const cosine = wo[2] / length;
   // Facets are cos χ (sin ψ p + cos ψ z) + sin χ q; of p, what is not along q is `least` long, squared.
@@ -41,7 +41,7 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
     const root = b + (b >= 0 ? 1 : -1) * Math.sqrt(discriminant);
     // At the critical angle a is 0, and the conic open at one end.
     const [x, y] = [clamp(-root / (a >= 0 ? Math.max(a, 1e-30) : a), -1e15, 1e15), clamp(-c / root, -1e15, 1e15)];
-    const place = (slope: number): number => (slope * cosine - sine) / Math.hypot(slope, 1);
+    const place = (slope: number): number => (slope * cosine - sine) / length2(slope, 1);
     return [place(a >= 0 ? Math.max(x, y) : Math.min(x, y)), a >= 0 ? cosine : place(Math.max(x, y))];
   };
   /** The square of tan χ at the conic's bounds, about its middle. */
@@ -62,7 +62,7 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
       const [sinPsi, cosPsi] = [s * cosine + rest * sine, Math.max(rest * cosine - s * sine, 0)];
       const middle = -skew * sinPsi;
       const width = Math.sqrt(Math.max(Math.min(reach(one, sinPsi, cosPsi), reach(other, sinPsi, cosPsi)), 0));
-      const bound = (tangent: number): number => tangent / Math.hypot(tangent, 1);
+      const bound = (tangent: number): number => tangent / length2(tangent, 1);
       const left = bound(middle - width);
       const right = bound(middle + width);
       const sinChi = left + (right - left) * v * v * (3 - 2 * v);
@@ -75,7 +75,7 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
         cosChi * sinPsi * p[1] + sinChi * q[1],
         cosChi * cosPsi,
       ];
-      const size = Math.hypot(...facet);
+      const size = length3(...facet);
       add(weight, [facet[0] / size, facet[1] / size, facet[2] / size]);
     }
   };

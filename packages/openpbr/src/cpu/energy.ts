@@ -12,7 +12,7 @@ import {
 import { OPENPBR_TABLES, type OpenPbrTable } from '../tables/tables';
 import { fresnelDielectric } from './fresnel';
 import { conductorCosine, isSmooth, type Slopes } from './ggx';
-import { clamp } from './vector';
+import { clamp, length2 } from './vector';
 
 /** What a texture with linear filtering and clamping gives at `coords` in [0, 1]. */
 export function tableLookup(table: OpenPbrTable, coords: readonly [number, number, number?]): number {
@@ -123,7 +123,7 @@ export function conductorLoss(alpha: Slopes, roughness: number, w: OpenPbrVector
   const lost = energyLost(roughness, cosine);
   if (alpha[0] <= alpha[1]) return lost;
   const slope = clamp(
-    Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(Math.hypot(w[0], w[1]), 1e-20),
+    length2(alpha[0] * w[0], alpha[1] * w[1]) / Math.max(length2(w[0], w[1]), 1e-20),
     alpha[1],
     alpha[0],
   );

@@ -1,7 +1,7 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxSample, ggxMasking, ggxMaskingShadowing, type Slopes } from './ggx';
-import { clamp, dot } from './vector';
+import { clamp, dot, length2 } from './vector';
 import { FILM_BANDS, type FilmBands } from '../tables/film';
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
@@ -111,7 +111,7 @@ export function filmReflectance(
   const q1 = Math.sqrt(square1 - tangential);
   const q2 = Math.sqrt(square2 - tangential);
   const square3: Complex = [n * n - k * k, 2 * n * k];
-  const size = Math.hypot(square3[0] - tangential, square3[1]);
+  const size = length2(square3[0] - tangential, square3[1]);
   const q3: Complex = [
     Math.sqrt(Math.max((size + square3[0] - tangential) / 2, 0)),
     Math.sqrt(Math.max((size - square3[0] + tangential) / 2, 0)),

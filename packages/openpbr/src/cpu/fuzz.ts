@@ -3,7 +3,7 @@ import { SHEEN_COLUMNS, SHEEN_ROWS, TABLE_BLOCKS_2D, TABLE_HEIGHT_2D } from '../
 import { OPENPBR_TABLES } from '../tables/tables';
 import { cosineSample } from './diffuse';
 import { tableLookup } from './energy';
-import { clamp, normalize } from './vector';
+import { clamp, length2, normalize } from './vector';
 
 /** The fuzz seen from one direction; twin of the WGSL struct `OpenPbrFuzz`. */
 export interface Fuzz {
@@ -33,7 +33,7 @@ export const fuzzAlbedo = (roughness: number, mu: number): number => lookup('she
 /** Prepares the fuzz for one direction; twin of `openpbr_fuzz_prepare`. */
 export function prepareFuzz(p: OpenPbrParameters, wo: OpenPbrVector, mu: number): Fuzz {
   const albedo = p.fuzz_weight * fuzzAlbedo(p.fuzz_roughness, mu);
-  const flat = Math.hypot(wo[0], wo[1]);
+  const flat = length2(wo[0], wo[1]);
   return {
     color: [albedo * p.fuzz_color[0], albedo * p.fuzz_color[1], albedo * p.fuzz_color[2]],
     below: 1 - albedo,

@@ -1,5 +1,5 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { clamp, normalize } from './vector';
+import { clamp, length2, length3, normalize } from './vector';
 
 /** GGX slopes along the tangent and the bitangent. */
 export type Slopes = readonly [x: number, y: number];
@@ -17,7 +17,7 @@ export function ggxAlpha(roughness: number, anisotropy: number): Slopes {
   return [Math.max(along, 1e-4), Math.max(flat * along, 1e-4)];
 }
 
-const stretch = (alpha: Slopes, w: OpenPbrVector): number => Math.hypot(alpha[0] * w[0], alpha[1] * w[1], w[2]);
+const stretch = (alpha: Slopes, w: OpenPbrVector): number => length3(alpha[0] * w[0], alpha[1] * w[1], w[2]);
 
 /** Density of facet normals, per solid angle and projected area; its integral over cos θ is 1. */
 export function ggxDistribution(alpha: Slopes, h: OpenPbrVector): number {
@@ -52,14 +52,14 @@ export function ggx(
 
 /** Round roughness that reflects as large a share of the light towards `w`; twin of `openpbr_view_roughness`. */
 export const viewRoughness = (alpha: Slopes, roughness: number, w: OpenPbrVector): number =>
-  Math.sqrt(Math.min(Math.hypot(alpha[0] * w[0], alpha[1] * w[1], roughness * roughness * w[2]), 1));
+  Math.sqrt(Math.min(length3(alpha[0] * w[0], alpha[1] * w[1], roughness * roughness * w[2]), 1));
 
 /**
  * The cosine at which a round highlight has the same masking: `mu` of `w` if the highlight is round; twin of
  * `openpbr_conductor_cosine`.
  */
 export const conductorCosine = (alpha: Slopes, w: OpenPbrVector, mu: number): number =>
-  mu / Math.hypot(mu, (Math.hypot(alpha[0] * w[0], alpha[1] * w[1]) * Math.SQRT2) / Math.hypot(alpha[0], alpha[1]));
+  mu / length2(mu, (length2(alpha[0] * w[0], alpha[1] * w[1]) * Math.SQRT2) / length2(alpha[0], alpha[1]));
 
 /** The half vector, finite where two grazing directions cancel; twin of `openpbr_half`. */
 export const halfVector = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector =>
@@ -71,7 +71,7 @@ export const halfVector = (wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector 
  */
 export function ggxBound(alpha: Slopes, wo: OpenPbrVector): number {
   const a = Math.min(alpha[0], alpha[1], 1);
-  const s = 1 + Math.hypot(wo[0], wo[1]);
+  const s = 1 + length2(wo[0], wo[1]);
   return ((1 - a * a) * s * s) / (s * s + a * a * wo[2] * wo[2]);
 }
 

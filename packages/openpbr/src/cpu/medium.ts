@@ -14,7 +14,7 @@ export interface Medium {
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 
 /**
- * The interior of a transparent object (OpenPBR 1.1); twin of `openpbr_medium`. Zero for thin walls and for depth 0.
+ * The interior of a transparent object (OpenPBR 1.1.1); twin of `openpbr_medium`. Zero for thin walls and for depth 0.
  */
 export function transmissionMedium(p: OpenPbrParameters): Medium {
   const anisotropy = clamp(p.transmission_scatter_anisotropy, -0.999, 0.999);

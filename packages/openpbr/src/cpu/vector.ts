@@ -2,8 +2,12 @@ import type { OpenPbrVector } from '../parameters/index';
 
 export const dot = (a: OpenPbrVector, b: OpenPbrVector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
+/** Length of a vector. Far from overflow, so not `Math.hypot`, which is ten times as slow. */
+export const length2 = (x: number, y: number): number => Math.sqrt(x * x + y * y);
+export const length3 = (x: number, y: number, z: number): number => Math.sqrt(x * x + y * y + z * z);
+
 export function normalize(a: OpenPbrVector): OpenPbrVector {
-  const scale = 1 / Math.hypot(a[0], a[1], a[2]);
+  const scale = 1 / length3(a[0], a[1], a[2]);
   return [a[0] * scale, a[1] * scale, a[2] * scale];
 }
 

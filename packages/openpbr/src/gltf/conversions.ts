@@ -33,5 +33,14 @@ export function anisotropicRoughness(
   };
 }
 
+/**
+ * Single-scattering albedo of a medium whose half space gives back the part `multiple` of what enters it, without an
+ * interface (Kulla and Conty 2017), as KHR_materials_volume_scatter states it.
+ */
+export function singleScatteringAlbedo(multiple: number): number {
+  const s = 4.09712 + 4.20863 * multiple - Math.sqrt(9.59217 + 41.6808 * multiple + 17.7126 * multiple * multiple);
+  return Math.min(Math.max(1 - s * s, 0), 1);
+}
+
 /** The largest reflectance at normal incidence that an index stands for: 1 would be infinite. */
 export const LARGEST_REFLECTANCE = 0.98;

@@ -1,5 +1,13 @@
+import { mediumOfAlbedo } from '../color/medium-of-albedo';
 import type { OpenPbrColor, OpenPbrParameters } from '../parameters/index';
-import { anisotropicRoughness, fuzzRoughness, iorOf, LARGEST_REFLECTANCE, reflectanceOf } from './conversions';
+import {
+  anisotropicRoughness,
+  fuzzRoughness,
+  iorOf,
+  LARGEST_REFLECTANCE,
+  reflectanceOf,
+  singleScatteringAlbedo,
+} from './conversions';
 import type { GltfMaterialFactors } from './material';
 
 /** What a mapping step may change. */
@@ -114,6 +122,28 @@ const diffuseTransmission: GltfMappingStep = ({ extensions }, parameters) => {
 };
 
 /**
+ * The medium of a volume that scatters. Its attenuation is then that by absorption and scattering together, as the
+ * extinction of OpenPBR's interior is. A dense one is entered by diffuse transmission, and is OpenPBR's subsurface.
+ */
+const volumeScatter: GltfMappingStep = ({ extensions }, parameters) => {
+  const extension = extensions?.KHR_materials_volume_scatter;
+  if (!extension || !((extensions.KHR_materials_volume?.thicknessFactor ?? 0) > 0)) return;
+  const albedo = color(extension.multiscatterColorFactor ?? extension.multiscatterColor, 0);
+  const anisotropy = extension.scatterAnisotropy ?? 0;
+  const { transmission_depth: depth, transmission_color: left, subsurface_color: tinted } = parameters;
+  if (depth !== undefined && left) {
+    const [r, g, b] = albedo;
+    const single: OpenPbrColor = [singleScatteringAlbedo(r), singleScatteringAlbedo(g), singleScatteringAlbedo(b)];
+    Object.assign(parameters, mediumOfAlbedo(left, depth, single));
+    parameters.transmission_scatter_anisotropy = anisotropy;
+  }
+  if (tinted) {
+    parameters.subsurface_color = [tinted[0] * albedo[0], tinted[1] * albedo[1], tinted[2] * albedo[2]];
+    parameters.subsurface_scatter_anisotropy = anisotropy;
+  }
+};
+
+/**
  * Reflectance at normal incidence min(F0·color, 1)·factor becomes specular_weight × F0 times the tint specular_color.
  * Exact at normal incidence; at grazing angles glTF reflects white × factor, here the tint stays. The extension does
  * not touch metal, but both OpenPBR parameters do, so they fade out with the metalness; fractional metalness is
@@ -209,6 +239,7 @@ const STEPS: readonly GltfMappingStep[] = [
   transmission,
   dispersion,
   diffuseTransmission,
+  volumeScatter,
   specular,
   anisotropy,
   iridescence,
@@ -235,6 +266,7 @@ const STEPS: readonly GltfMappingStep[] = [
  * | KHR_materials_volume | transmission_color, transmission_depth | the thickness, which a path tracer measures itself; where the volume absorbs, the tint by the base colour |
  * | KHR_materials_dispersion | transmission_dispersion_scale, _abbe_number | nothing |
  * | KHR_materials_diffuse_transmission | subsurface_weight, subsurface_color; a thin wall with subsurface_scatter_anisotropy 1 | nothing for sheets; in volumes the scattering is a guess by the absorption |
+ * | KHR_materials_volume_scatter (draft) | transmission_scatter, _scatter_anisotropy; with diffuse transmission subsurface_color, subsurface_scatter_anisotropy | the texture; scattering without an attenuation distance, which has no density; a dense medium is entered through a smooth or rough interface, not a diffuse one |
  * | KHR_materials_clearcoat | coat_weight, coat_roughness, coat_ior 1.5, coat_darkening 0, a higher specular_ior | the base looks rougher through the coat; below a coat with a texture, or where light goes through, the base reflects less |
  * | KHR_materials_sheen | fuzz_weight = brightest channel, fuzz_color, fuzz_roughness by a fit | other models of cloth: albedos differ by 0.05 to 0.15 for roughness 0.3 to 1, more below; the fuzz lies over a clearcoat, not below it |
  * | KHR_materials_iridescence | thin_film_weight, _thickness, _ior | the film also colours what goes through, and is seen through a coat |

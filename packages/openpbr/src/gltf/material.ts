@@ -102,4 +102,14 @@ export interface GltfMaterialExtensions {
     readonly attenuationDistance?: number;
     readonly attenuationColor?: Numbers;
   };
+  /** A draft of Khronos; acts with `KHR_materials_volume` alone. */
+  readonly KHR_materials_volume_scatter?: {
+    /** Multiple-scattering albedo; default 0, 0, 0. */
+    readonly multiscatterColorFactor?: Numbers;
+    /** The name of the factor in the drafts before April 2026. */
+    readonly multiscatterColor?: Numbers;
+    readonly multiscatterColorTexture?: GltfTextureReference;
+    /** Henyey and Greenstein's g; default 0. */
+    readonly scatterAnisotropy?: number;
+  };
 }

@@ -216,6 +216,11 @@ export function gltfTextures(material: GltfMaterialFactors): GltfTextureMapping 
       `${path}ColorTexture`,
     );
   }
+  if (extensions.KHR_materials_volume_scatter?.multiscatterColorTexture)
+    lost.push({
+      path: `${EXTENSION}volume_scatter/multiscatterColorTexture`,
+      reason: 'would give one volume many colours; its factor is read alone',
+    });
   if (parameters.coat_weight !== undefined) {
     const path = `${EXTENSION}clearcoat/clearcoat`;
     use('coat_weight', extensions.KHR_materials_clearcoat?.clearcoatTexture, 'r', 'linear', `${path}Texture`);

@@ -371,7 +371,7 @@ export class Graph {
           value.scale.some((s) => s !== 1) ||
           value.offset.some((o) => o !== 0)
         )
-          throw new Unsupported('is no image of normals');
+          throw new Unsupported('is not an image of normals');
         // Whatever the document says of the image's colours: normals are numbers.
         return { kind: 'normal map', texture: { ...value.texture, colorSpace: 'linear' }, scale };
       }
@@ -389,14 +389,14 @@ export class Graph {
         return this.#place(node, scope);
       case 'rotate2d': {
         const value = argument('in');
-        if (value.kind !== 'coordinates') throw new Unsupported('turns what are no texture coordinates');
+        if (value.kind !== 'coordinates') throw new Unsupported('turns what are not texture coordinates');
         return { ...value, transform: after(value.transform, turn(numbers('amount', [0])[0] as number)) };
       }
       case 'transformmatrix': {
         const value = argument('in');
         const m = numbers('mat', [1, 0, 0, 0, 1, 0, 0, 0, 1]);
         if (value.kind !== 'coordinates' || m.length !== 9)
-          throw new Unsupported('transforms what are no texture coordinates');
+          throw new Unsupported('transforms what are not texture coordinates');
         return {
           ...value,
           transform: after(value.transform, [m[0], m[1], m[3], m[4], m[6], m[7]] as unknown as Affine),

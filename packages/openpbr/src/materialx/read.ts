@@ -10,11 +10,17 @@ import { failure, MaterialXError, quote } from './error';
 import { convert, Unsupported, type Affine, type Expression, type TextureLookup } from './expression';
 import { Graph, type Tell } from './graph';
 import type { MaterialXMaterial, MaterialXTexture, MaterialXWarning } from './material';
+import { DRAFT_INPUTS, fromDraft, type SurfaceName, type SurfaceTextures, type SurfaceValues } from './version';
 import { parseXml, type MaterialXLimits, type XmlElement } from './xml';
 
 /** Options for {@link readMaterialX}. */
 export interface ReadMaterialXOptions {
   readonly limits?: MaterialXLimits;
+  /**
+   * The version of OpenPBR that the document's surfaces are written in. Default `1.1.1`. With `1.2`, the draft, they are
+   * converted as `fromOpenPbr12` of `@glanz/openpbr/versions` does; warnings name what 1.1.1 cannot have.
+   */
+  readonly openPbr?: '1.1.1' | '1.2';
   /** Colour space of colours whose document names none. Default `acescg`, as the OpenPBR specification has it. */
   readonly colorSpace?: string;
 }
@@ -39,9 +45,6 @@ const UNITS: ReadonlyMap<string, number> = new Map([
   ['yard', 0.9144],
   ['mile', 1609.344],
 ]);
-
-type Parameters = Partial<Record<OpenPbrParameterName, unknown>>;
-type Textures = Partial<Record<OpenPbrParameterName, MaterialXTexture>>;
 
 /** A map between coordinates whose v runs up as one between coordinates whose v runs down. */
 export const flipped = ([a, b, c, d, x, y]: Affine): Affine => [a, -b || 0, -c || 0, d, x + c, 1 - d - y];
@@ -88,8 +91,8 @@ function product(
 }
 
 /** Takes one input of the surface. */
-function take(name: OpenPbrParameterName, given: Expression, parameters: Parameters, textures: Textures): void {
-  const { type } = OPENPBR_PARAMETER_SPECS[name];
+function take(name: SurfaceName, given: Expression, parameters: SurfaceValues, textures: SurfaceTextures): void {
+  const type = Object.hasOwn(DRAFT_INPUTS, name) ? 'float' : OPENPBR_PARAMETER_SPECS[name as OpenPbrParameterName].type;
   if (type === 'vector3') {
     if (given.kind === 'normal map' && name.endsWith('normal'))
       textures[name] = { ...textureOf(given.texture, 'rgb'), ...(given.scale === 1 ? {} : { scale: given.scale }) };
@@ -115,13 +118,14 @@ function take(name: OpenPbrParameterName, given: Expression, parameters: Paramet
     const texture = textureOf(value.texture, value.channels === 'rgba' ? 'rgb' : value.channels);
     parameters[name] = width === 1 ? factor[0] : factor;
     textures[name] = range[0] === 0 && range[1] === 1 ? texture : { ...texture, range };
-  } else throw new Unsupported('is no number or colour');
+  } else throw new Unsupported('is neither a number nor a colour');
 }
 
 /** Lengths in the units of the document's inputs as those of the parameters. */
-function inUnit(name: OpenPbrParameterName, input: XmlElement, parameters: Parameters, tell: Tell): void {
+function inUnit(name: SurfaceName, input: XmlElement, parameters: SurfaceValues, tell: Tell): void {
   const unit = input.attributes.get('unit');
-  const { unit: own } = OPENPBR_PARAMETER_SPECS[name];
+  if (Object.hasOwn(DRAFT_INPUTS, name)) return;
+  const { unit: own } = OPENPBR_PARAMETER_SPECS[name as OpenPbrParameterName];
   if (unit === undefined || (own !== 'length' && own !== 'µm')) return;
   const metres = UNITS.get(unit);
   if (metres === undefined)
@@ -136,17 +140,24 @@ function readSurface(
   graph: Graph,
   warnings: MaterialXWarning[],
   tell: Tell,
+  draft: boolean,
 ): MaterialXMaterial {
-  const raw: Parameters = {};
-  const textures: Textures = {};
+  const raw: SurfaceValues = {};
+  const textures: SurfaceTextures = {};
+  if (!draft && surface.attributes.get('version')?.startsWith('1.2'))
+    tell(
+      'unsupported',
+      `${quote(name)} is of the draft of OpenPBR 1.2, but is read as 1.1.1: pass openPbr: '1.2'.`,
+      surface.line,
+    );
   for (const input of surface.children) {
     if (input.name !== 'input') continue;
     const key = input.attributes.get('name') ?? '';
-    if (!Object.hasOwn(OPENPBR_PARAMETER_SPECS, key)) {
+    if (!Object.hasOwn(OPENPBR_PARAMETER_SPECS, key) && !(draft && Object.hasOwn(DRAFT_INPUTS, key))) {
       tell('unsupported', `OpenPBR has no input ${quote(key)}; it is left out.`, input.line);
       continue;
     }
-    const parameter = key as OpenPbrParameterName;
+    const parameter = key as SurfaceName;
     try {
       const value = graph.input(input, scope);
       if (value) take(parameter, value, raw, textures);
@@ -161,6 +172,7 @@ function readSurface(
       );
     }
   }
+  if (draft) fromDraft(raw, textures, (message) => tell('unsupported', message, surface.line));
   if (raw.subsurface_radius_scale && !textures.subsurface_radius_scale) {
     const { radius, scale } = scatteringRadius(
       (raw.subsurface_radius as number | undefined) ?? 1,
@@ -191,7 +203,7 @@ function readSurface(
  */
 export function readMaterialX(
   source: string | Uint8Array,
-  { limits = {}, colorSpace = 'acescg' }: ReadMaterialXOptions = {},
+  { limits = {}, openPbr = '1.1.1', colorSpace = 'acescg' }: ReadMaterialXOptions = {},
 ): MaterialXDocument {
   let text: string;
   if (typeof source === 'string') text = source;
@@ -242,11 +254,11 @@ export function readMaterialX(
       continue;
     }
     shown.add(surface);
-    materials.push(readSurface(surface, root, nameOf(material), graph, warnings, tell));
+    materials.push(readSurface(surface, root, nameOf(material), graph, warnings, tell, openPbr === '1.2'));
   }
   for (const surface of root.children) {
     if (surface.name === 'open_pbr_surface' && !shown.has(surface))
-      materials.push(readSurface(surface, root, nameOf(surface), graph, warnings, tell));
+      materials.push(readSurface(surface, root, nameOf(surface), graph, warnings, tell, openPbr === '1.2'));
   }
   if (materials.length === 0) throw failure('no-surface', 'there is no <open_pbr_surface> in it.', root.line);
   return { materials, warnings };

@@ -43,7 +43,7 @@ function unescaped(text: string, line: number): string {
     if (!(code > 0 && code <= 0x10ffff))
       throw failure(
         'syntax',
-        `${quote(`&${reference}`)} is no reference that is known; documents cannot define their own.`,
+        `${quote(`&${reference}`)} is not a known reference; documents cannot define their own.`,
         line,
       );
     return String.fromCodePoint(code);

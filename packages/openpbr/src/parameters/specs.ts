@@ -95,7 +95,7 @@ const table = (): Specs => ({
 });
 
 /**
- * The parameters of OpenPBR Surface 1.1 as data, in the specification's order: `OPENPBR_PARAMETERS` without its texts,
+ * The parameters of OpenPBR Surface 1.1.1 as data, in the specification's order: `OPENPBR_PARAMETERS` without its texts,
  * which weigh as much as everything else in it.
  */
 export const OPENPBR_PARAMETER_SPECS: Specs = /* @__PURE__ */ Object.freeze(/* @__PURE__ */ table());

@@ -5,7 +5,7 @@ export type OpenPbrColor = readonly [r: number, g: number, b: number];
 export type OpenPbrVector = readonly [x: number, y: number, z: number];
 
 /**
- * Every parameter of OpenPBR Surface 1.1, under the specification's names. Colours are linear with Rec.709/sRGB
+ * Every parameter of OpenPBR Surface 1.1.1, under the specification's names. Colours are linear with Rec.709/sRGB
  * primaries (the specification's own examples are in ACEScg), lengths are metres unless the parameter says otherwise.
  * The same text, with ranges and defaults, is data in {@link OPENPBR_PARAMETERS}.
  */

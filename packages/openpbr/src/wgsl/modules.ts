@@ -89,7 +89,7 @@ export const openpbrFresnelMetal: WgslModule = fresnelMetal;
  * ```
  *
  * Extinction turns white into `transmission_color` at `transmission_depth`. Where the requested scattering exceeds it,
- * the extinction of all channels rises by as much as the channel needs that lacks most (OpenPBR 1.1). Dispersion is
+ * the extinction of all channels rises by as much as the channel needs that lacks most (OpenPBR 1.1.1). Dispersion is
  * Cauchy's n = A + B / λ² through the index at 587.6 nm, with the Abbe number over the dispersion scale.
  */
 export const openpbrMedium: WgslModule = medium;

@@ -1,0 +1,1 @@
+export { readUsd, usdFiles, type UsdOptions } from './read';
