@@ -87,7 +87,7 @@ const LARGE: readonly Row[] = [
 const unknownNetwork = (why: string) =>
   new DenoiseError(
     'denoise/weights',
-    `The weights are of no network that is known: ${why}. Use the .tza files of Open Image Denoise 2.x.`,
+    `The weights belong to no known network: ${why}. Use the .tza files of Open Image Denoise 2.x.`,
   );
 
 function tensorOf(tensors: ReadonlyMap<string, TzaTensor>, name: string, shape: readonly (number | undefined)[]) {

@@ -104,7 +104,7 @@ export function parseTza(bytes: Uint8Array | ArrayBuffer): ReadonlyMap<string, T
   if (view.byteLength < 12 || view.getUint16(0, true) !== 0x41d7 || view.getUint8(2) !== 2)
     throw new DenoiseError(
       'denoise/weights',
-      `These ${view.byteLength} bytes are no TZA archive of version 2. Pass the whole content of a .tza file.`,
+      `These ${view.byteLength} bytes are not a TZA archive of version 2. Pass the whole content of a .tza file.`,
       { location: { byteOffset: 0 } },
     );
   reader.at = 4;

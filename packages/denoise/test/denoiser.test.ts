@@ -5,7 +5,7 @@ import { denoiseOnGpu, download, outputBuffer, upload } from './gpu';
 import { randomImages, randomNetwork } from './random-network';
 
 let device: GPUDevice;
-beforeAll(async () => void (device = await testDevice()));
+beforeAll(async () => void (device = await testDevice({ driver: 'swiftshader' })));
 afterEach(() => expectNoGpuErrors());
 
 const weights = randomNetwork(9);

@@ -46,6 +46,7 @@ interface Shot {
   readonly noise?: number;
   readonly instancesMoved?: boolean;
   readonly eyes?: TemporalFrame['eyes'];
+  readonly projections?: TemporalFrame['projections'];
   /** In place of the noisy radiance. */
   readonly color?: (x: number, y: number) => number;
 }
@@ -69,7 +70,7 @@ async function run(shots: readonly Shot[], options: TemporalFilterOptions = {}) 
   try {
     await filter.prepare(WIDTH, HEIGHT);
     let image = { buffer: undefined as unknown as GPUBuffer, width: WIDTH, height: HEIGHT };
-    for (const { scene, step, samples = 1, noise = 0, instancesMoved = false, eyes, color } of shots) {
+    for (const { scene, step, samples = 1, noise = 0, instancesMoved = false, eyes, projections, color } of shots) {
       const seen = Array.from({ length: PIXELS }, (_, i) => scene(...center(i)));
       const film = Float32Array.from({ length: 4 * PIXELS }, (_, i) => {
         if (i % 4 === 3) return 0.25;
@@ -90,6 +91,7 @@ async function run(shots: readonly Shot[], options: TemporalFilterOptions = {}) 
         position: buffer(vectors(({ position, virtualDepth }) => [...position, virtualDepth])),
         ids: buffer(Uint32Array.from(seen.flatMap(({ instance, roughness = 1 }) => [instance, 0, 0, bits(roughness)]))),
         eyes,
+        projections,
         motion: buffer(vectors(({ motion }) => motion)),
       });
     }
@@ -247,6 +249,68 @@ describe('TemporalFilter', () => {
     expect(spread((await run(shots(wall), MEAN_ALONE)).image, 0.8)).toBeLessThan(1e-6);
   });
 
+  describe('with projections', () => {
+    type Eyes = readonly [now: number, before: number];
+    /** A mirror at z = −2 that shows a ramp at z = −5, from an eye at (x, 0, 0) which both move with. */
+    const seenFrom = (eye: number, deep = 2.5) => {
+      const scene = (x: number, y: number): Seen => {
+        const [dx, dy] = [0.01 * (x - WIDTH / 2), -0.01 * (y - HEIGHT / 2)];
+        return {
+          ...wall(x, y),
+          position: [eye + dx, dy, -2],
+          // The depth that run() gives is that of the mirror's plane.
+          virtualDepth: 2 + (deep - 1) * Math.hypot(dx, dy, 2),
+          radiance: 0.2 + 0.1 * (eye + 2.5 * dx),
+          roughness: 1,
+        };
+      };
+      return scene;
+    };
+    const projection = (eye: number) => {
+      const [focalX, focalY] = [400 / WIDTH, 400 / HEIGHT];
+      return [focalX, 0, 0, 0, 0, focalY, 0, 0, 0, 0, 0, -1, -focalX * eye, 0, 0, 0];
+    };
+    const views = ([now, before]: Eyes): Pick<Shot, 'eyes' | 'projections'> => ({
+      eyes: [
+        [now, 0, 0],
+        [before, 0, 0],
+      ],
+      projections: [projection(now), projection(before)],
+    });
+
+    it('follows what is seen in mirrors to where its virtual image was', async () => {
+      const step = 0.0625;
+      const shots = [0, 1, 2, 3].map((k): Shot => ({
+        scene: seenFrom(k * step),
+        step: 'moves',
+        ...views([k * step, (k - 1) * step]),
+      }));
+      const { image } = await run(shots, MEAN_ALONE);
+      const expected = (x: number) => seenFrom(3 * step)(x, 12).radiance;
+      // The virtual image moves by 2.5 pixels a frame, in three steps from the right, beyond whose border is nothing.
+      for (let x = 0; x < WIDTH - 10; x++) expect(red(image, x, 12)).toBeCloseTo(expected(x), 5);
+      // The mirror moves by 6.25.
+      const motion = [6.25, 0] as const;
+      const surface = shots.map(({ scene, ...shot }) => ({
+        ...shot,
+        projections: undefined,
+        scene: (x: number, y: number) => ({ ...scene(x, y), motion }),
+      }));
+      expect(Math.abs(red((await run(surface, MEAN_ALONE)).image, 8, 12) - expected(8))).toBeGreaterThan(0.005);
+    });
+
+    it('counts its history in full, but not that of something nearer or farther, nor after instances have moved', async () => {
+      const shots = (deep: number, instancesMoved = false): Shot[] => [
+        { scene: seenFrom(0, deep), step: 'cuts', samples: 16, color: () => 1 },
+        { scene: seenFrom(0), step: 'moves', samples: 4, color: () => 0, instancesMoved, ...views([0, 0]) },
+      ];
+      expect(spread((await run(shots(2.5), MEAN_ALONE)).image, 0.8)).toBeLessThan(1e-6);
+      expect(spread((await run(shots(2.55), MEAN_ALONE)).image, 0.8)).toBeLessThan(1e-6);
+      for (const deep of [2.4, 2.6]) expect(spread((await run(shots(deep), MEAN_ALONE)).image, 0)).toBeLessThan(1e-6);
+      expect(spread((await run(shots(2.5, true), MEAN_ALONE)).image, 0.5)).toBeLessThan(1e-6);
+    });
+  });
+
   it.each([
     // The view turns by 0.1: half a share of change over the history allows 5 samples of α = 1/2, 1/2 sample of α = 1/11.
     ['diffuse', 1, 16],
@@ -306,6 +370,28 @@ describe('TemporalFilter', () => {
     // Over frames it becomes less still.
     const frames = Array.from({ length: 8 }, () => ({ scene: corner, step: 'moves' as const, noise: 0.3 }));
     expect(error((await run(frames)).image)).toBeLessThan(0.03);
+  });
+
+  it('keeps a light apart from the surface around it, and filters across instances that are lit alike', async () => {
+    const inside = (x: number, y: number) => x >= 14 && x < 26 && y >= 10 && y < 14;
+    const lit = (radiance: number) => (x: number, y: number) =>
+      inside(x, y) ? { ...wall(x, y), instance: 4, radiance } : wall(x, y);
+    const frames = (radiance: number) =>
+      Array.from({ length: 6 }, (): Shot => ({ scene: lit(radiance), step: 'moves', noise: 0.6 }));
+    const around = (image: Float32Array, reach: number) => {
+      let off = 0;
+      for (let y = 10 - reach; y < 14 + reach; y++)
+        for (let x = 14 - reach; x < 26 + reach; x++)
+          if (!inside(x, y)) off = Math.max(off, Math.abs(red(image, x, y) / 0.5 - 1));
+      return off;
+    };
+    expect(around((await run(frames(10))).image, 4)).toBeLessThan(0.25);
+    // A patch of another instance that is lit as what is around it has no more noise than that.
+    const { image } = await run(frames(0.5));
+    let off = 0;
+    for (let x = 14; x < 26; x++)
+      for (let y = 10; y < 14; y++) off = Math.max(off, Math.abs(red(image, x, y) / 0.5 - 1));
+    expect(off).toBeLessThan(0.15);
   });
 
   it('filters in space as long as the history leaves noise', async () => {

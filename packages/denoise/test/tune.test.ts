@@ -6,7 +6,7 @@ import { denoiseOnGpu } from './gpu';
 import { randomImages, randomNetwork } from './random-network';
 
 let device: GPUDevice;
-beforeAll(async () => void (device = await testDevice()));
+beforeAll(async () => void (device = await testDevice({ driver: 'swiftshader' })));
 afterEach(() => {
   vi.restoreAllMocks();
   return expectNoGpuErrors();

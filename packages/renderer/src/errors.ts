@@ -17,6 +17,6 @@ export const deviceLost = ({ reason, message }: GPUDeviceLostInfo): DeviceError 
  * The renderer was asked for something it cannot do. Codes: `renderer/size`, `renderer/samples`, `renderer/camera`,
  * `renderer/filter`, `renderer/light-groups`, `renderer/option`, `renderer/film-state`, `renderer/material`,
  * `renderer/instance`, `renderer/mesh`, `renderer/light`, `renderer/environment`, `renderer/transform`,
- * `renderer/variant`, `renderer/aov`, `renderer/destroyed`, `renderer/busy`, `renderer/no-triangles`.
+ * `renderer/variant`, `renderer/aov`, `renderer/shutter`, `renderer/destroyed`, `renderer/busy`, `renderer/no-triangles`.
  */
 export class RenderError extends GlanzError {}

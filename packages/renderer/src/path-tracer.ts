@@ -63,6 +63,12 @@ export class PathTracer extends TracerEdits {
   #destroyed = false;
   #failure: DeviceError | undefined;
   #rays = 0;
+  /**
+   * Whether edits leave the film as it is, so that the samples after them add to those before: the film is the mean over
+   * all states that it was rendered in. For motion blur, see `renderShutter()` of `@glanz/renderer/shutter`. An edit that
+   * needs other kernels restarts the film in any case, as do {@link reset} and {@link resize}. Default: no.
+   */
+  declare accumulates: boolean | undefined;
 
   private constructor(prepared: Prepared) {
     super();
@@ -98,7 +104,8 @@ export class PathTracer extends TracerEdits {
       integrator,
       film: this.#session,
       features: () => kernelFeatures(gpuScene.features(), this.#camera, this.#options),
-      restart: (effect, moves) => this.#restart(effect, undefined, moves),
+      edited: (effect, moves) => this.#restart(this.accumulates ? 'keeps' : effect, undefined, moves),
+      restart: () => this.#restart('invalidates'),
     });
     this.#ignoreLoss = onDeviceLost(device, (info) => (this.#failure ??= deviceLost(info)));
   }
@@ -343,10 +350,7 @@ export class PathTracer extends TracerEdits {
   async readLightGroup(name: string): Promise<Float32Array<ArrayBuffer>> {
     this.#check();
     if (this.#integrator.pathsPerSample > 1)
-      throw new RenderError(
-        'renderer/light-groups',
-        'With catchers, light groups can be set, but not read one by one.',
-      );
+      throw new RenderError('renderer/light-groups', 'With catchers, light groups can be set, but not read.');
     return this.#session.readGroup(name);
   }
 
@@ -525,7 +529,7 @@ export class PathTracer extends TracerEdits {
   }
 
   #check(): void {
-    if (this.#destroyed) throw new RenderError('renderer/destroyed', 'This tracer has been destroyed.');
+    if (this.#destroyed) throw new RenderError('renderer/destroyed', 'This tracer was destroyed.');
     if (this.#failure) throw this.#failure;
   }
 }

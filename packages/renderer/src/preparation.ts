@@ -17,13 +17,16 @@ import type { Kernel, KernelFeatures, KernelName } from './integrator/pipelines'
 import { lightGroupTable } from './lights/light-groups';
 import { lightSteps, type GatheredLights } from './lights/lights';
 import { energyTextures, type EnergyTextures } from './materials/energy-textures';
+import { parametersOf } from './materials/parameters';
 import { checkInteriors, type TracerSettings } from './option-checks';
 import { expectedFeatures } from './scene/features';
 import { GpuScene } from './scene/gpu-scene';
 import { ownScene } from './scene/scene-editor';
 import { stageOf, type AnyStage } from './schedule/stages';
 import { showFirstLight } from './session/first-light';
-import type { GpuMemory } from './storage/buffers';
+import { packFrame } from './session/frame';
+import { GpuMemory } from './storage/buffers';
+import { readFloats } from './storage/read-buffer';
 
 /** What the stages of a preparation make. */
 export interface Products {
@@ -49,6 +52,8 @@ export interface Products {
   readonly draft: Film;
   readonly features: KernelFeatures;
   readonly film: Film;
+  /** The guide is trained, where one is requested. */
+  readonly guide: void;
   /** Has the kernels when the stage `kernels` is done. */
   readonly integrator: Integrator;
   readonly kernels: void;
@@ -75,6 +80,8 @@ export function kernelFeatures(features: KernelFeatures, camera: Camera, options
       ...viewFlags(camera, options.filter),
       ...biasedFlags(options),
       ...aovFlags(options.aovs),
+      GUIDE: options.guiding > 0,
+      SHADOW_SOFTNESS: features.flags.CATCHER === true && options.shadowSoftness > 0,
     },
   };
 }
@@ -220,6 +227,18 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
     );
   return [
     stage({
+      name: 'guide',
+      needs: ['scene', 'geometry', 'gpuScene', 'features', 'camera'],
+      place: 'elsewhere',
+      async run(products, { signal }) {
+        if (!options.guiding) return;
+        const { trainGuide } = await import('./session/guide-training');
+        const source = { ...products, device, cache, options, signal };
+        const tools = [Integrator, GpuMemory, isShown, packFrame, parametersOf, readFloats, withErrorScopes] as const;
+        await trainGuide(source, tools);
+      },
+    }),
+    stage({
       name: 'draft',
       needs: ['expected'],
       place: 'background',
@@ -258,7 +277,7 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
     }),
     stage({
       name: 'kernels',
-      needs: ['features', 'integrator'],
+      needs: ['features', 'integrator', 'guide'],
       // The driver goes on compiling after an abort, for a later tracer.
       place: 'elsewhere',
       async run({ features, integrator }, { signal }) {

@@ -18,6 +18,11 @@ export const temporalFrameStruct = struct('TemporalFrame', {
   eye_before: 'vec3f',
   /** Pixels between the taps of the spatial filter. */
   step: 'u32',
+  /** From the space of positions to clip space, of this frame and of the one before; see `projected`. */
+  projection: 'mat4x4f',
+  projection_before: 'mat4x4f',
+  /** 1 where the projections are known. */
+  projected: 'u32',
 });
 
 /** Module of {@link temporalFrameStruct}, for shaders. */

@@ -51,7 +51,10 @@ export interface TemporalFrame {
   readonly normal: GPUBuffer;
   /** Positions of the first surface, and metres along the path to what is seen; four floats a pixel. */
   readonly position: GPUBuffer;
-  /** Number of the instance, two words that are not read, and roughness 0 to 1 as a float; four words a pixel. */
+  /**
+   * Number of the instance, two words that are not read, and the roughness 0 to 1, as a float, of what is seen, such as in
+   * a mirror; four words a pixel.
+   */
   readonly ids: GPUBuffer;
   /** Pixels from where the surface is to where it was in the frame before, x to the right, y down; two floats a pixel. */
   readonly motion: GPUBuffer;
@@ -62,6 +65,12 @@ export interface TemporalFrame {
    * are the neighbours that it is filtered with. Default: both at the origin.
    */
   readonly eyes?: readonly [now: Point, before: Point] | undefined;
+  /**
+   * From the space of `position` to clip space, of the frame and of the one before: column-major 4 × 4, such as the
+   * projection matrix times the view matrix; depths are not read. With them, and with `eyes`, the history of what is
+   * seen in flat mirrors or straight through glass is found; without, it counts for 4 samples at most.
+   */
+  readonly projections?: readonly [now: ArrayLike<number>, before: ArrayLike<number>] | undefined;
   /** With `moves`: whether instances have moved, not the camera alone. Default false. */
   readonly instancesMoved?: boolean | undefined;
 }
@@ -97,6 +106,8 @@ export interface FilterableCamera {
   readonly type: string;
   /** Column-major 4 × 4; it looks along −Z. */
   readonly transform: ArrayLike<number>;
+  /** Vertical field of view of a perspective camera, radians. */
+  readonly yfov?: number;
 }
 
 /** First-hit AOVs that the filter reads. */

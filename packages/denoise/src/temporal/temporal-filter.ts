@@ -1,13 +1,13 @@
 import { DenoiseError } from '../error';
 import { ALIGNMENT, COPY_DST, COPY_SRC, STORAGE, UNIFORM, bindGroup, readImage, tryBuffers } from '../gpu';
 import { checkSize } from '../images';
+import { eyeOf, projectionOf } from './camera';
 import { compileTemporalKernels, type TemporalKernels } from './kernels';
 import { temporalFrameStruct } from './layouts';
 import {
   TEMPORAL_AOVS,
   type FilterableTracer,
   type FilteredImage,
-  type FilterableCamera,
   type FrameStep,
   type Point,
   type TemporalFilterOptions,
@@ -47,13 +47,7 @@ const NOWHERE: readonly [Point, Point] = [
   [0, 0, 0],
   [0, 0, 0],
 ];
-/** How far away an orthographic camera's eye is. */
-const FAR = 1e6;
-
-function eyeOf({ type, transform: m }: FilterableCamera): Point {
-  const back = type === 'orthographic' ? FAR : 0;
-  return [12, 13, 14].map((i) => m[i]! + back * m[i - 4]!) as unknown as Point;
-}
+const UNKNOWN: readonly [ArrayLike<number>, ArrayLike<number>] = [new Float32Array(16), new Float32Array(16)];
 
 function checkOptions({ maxHistory, clampSigmas, passes, settledSamples }: Required<Settings>): void {
   const bad = (name: string, value: number, range: string) =>
@@ -75,8 +69,9 @@ type Settings = Omit<TemporalFilterOptions, 'signal'>;
  *
  * - Reprojection: each pixel's history is fetched from where its surface was, as the motion AOV tells, bilinearly from
  *   pixels that showed the same instance on the same plane with a like normal. What was hidden has none. The history of
- *   reflections is the shorter, the more the view has turned and the smoother the surface is; what is seen in mirrors or
- *   through clear glass moves otherwise than its first surface: its history counts for 4 samples at most.
+ *   reflections is the shorter, the more the view has turned and the smoother the surface is. What is seen in mirrors or
+ *   through clear glass is looked up where its virtual image was, straight on and as far away as the path is long; its
+ *   history counts for 4 samples at most where the projections are not known, or instances have moved.
  * - Illumination, the image over its albedo, is averaged with the history by their numbers of samples. The history is
  *   kept within the spread of the pixel's present neighbours, and counts for less where their mean has changed by more
  *   than its noise.
@@ -282,6 +277,8 @@ export class TemporalFilter {
         `The tracer does not record ${missing.join(', ')}: create it with aovs: TEMPORAL_AOVS, or await setAovs(TEMPORAL_AOVS).`,
       );
     const buffer = (name: (typeof TEMPORAL_AOVS)[number]) => tracer.aov(name).buffer;
+    const cameras = [tracer.camera, (tracer.history ?? tracer).camera] as const;
+    const [now, before] = cameras.map((camera) => projectionOf(camera, tracer.width / tracer.height));
     return this.filter({
       width: tracer.width,
       height: tracer.height,
@@ -294,7 +291,8 @@ export class TemporalFilter {
       motion: buffer('motion'),
       step,
       instancesMoved,
-      eyes: [eyeOf(tracer.camera), eyeOf((tracer.history ?? tracer).camera)],
+      eyes: [eyeOf(cameras[0]), eyeOf(cameras[1])],
+      projections: now && before && [now, before],
     });
   }
 
@@ -345,12 +343,13 @@ export class TemporalFilter {
   /** Writes the uniforms of all passes. @returns The share of the filtered image. */
   #write(
     { uniforms, width, height }: Buffers,
-    { samples, instancesMoved = false, eyes = NOWHERE }: TemporalFrame,
+    { samples, instancesMoved = false, eyes = NOWHERE, projections }: TemporalFrame,
   ): number {
     const { maxHistory, clampSigmas, settledSamples } = this.#settings;
     // Noise falls with the root of the samples: each doubling of them brings the film as much nearer.
     const settled = Math.log(samples / NOISY_SAMPLES) / Math.log(settledSamples / NOISY_SAMPLES);
     const share = settledSamples === Infinity ? 1 : Math.min(1, Math.max(0, 1 - settled));
+    const [projection, before] = projections ?? UNKNOWN;
     const data = new Uint8Array((MAX_PASSES + 1) * ALIGNMENT);
     for (let pass = 0; pass <= MAX_PASSES; pass++) {
       const bytes = temporalFrameStruct.allocate();
@@ -364,6 +363,9 @@ export class TemporalFilter {
         moved: instancesMoved ? 1 : 0,
         eye_before: eyes[1],
         step: 2 ** pass,
+        projection,
+        projection_before: before,
+        projected: projections ? 1 : 0,
       });
       data.set(new Uint8Array(bytes), pass * ALIGNMENT);
     }

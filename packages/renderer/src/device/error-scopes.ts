@@ -18,7 +18,7 @@ export interface Scoped<T> {
  * Runs calls to the GPU inside error scopes, so that errors are reported here and not to the host's `uncapturederror`
  * listeners.
  *
- * @param what Completes "The GPU has not enough memory for …".
+ * @param what Completes "The GPU does not have enough memory for …".
  * @throws What `run` throws; the errors of the GPU are those of {@link Scoped.verified}.
  */
 export function inErrorScopes<T>(device: GPUDevice, what: string, run: () => T): Scoped<T> {
@@ -51,7 +51,7 @@ async function checkScopes(
   if (memory) {
     throw new DeviceError(
       'renderer/out-of-memory',
-      `The GPU has not enough memory for ${what}: ${memory.message || 'no details'}. Make the image, textures or meshes smaller.`,
+      `The GPU does not have enough memory for ${what}: ${memory.message || 'no details'}. Make the image, textures or meshes smaller.`,
     );
   }
   const refused = validation ?? internal;

@@ -30,6 +30,19 @@ function composeBeauty({ width, height, lightPasses, weights: { last }, sums }: 
   const { film_total: total, film_block: block, film_moment: moment } = sums;
   if (lightPasses === groups) {
     // Without catchers, and without objects for each pixel: films have tens of millions.
+    const [first] = last;
+    if (first && groups === 1) {
+      const [wr, wg, wb] = first;
+      for (let i = 0; i < stride; i += 4) {
+        const count = moment[i + 3] as number;
+        if (count === 0) continue;
+        out[i] = (wr * ((total[i] as number) + (block[i] as number))) / count;
+        out[i + 1] = (wg * ((total[i + 1] as number) + (block[i + 1] as number))) / count;
+        out[i + 2] = (wb * ((total[i + 2] as number) + (block[i + 2] as number))) / count;
+        out[i + 3] = ((total[i + 3] as number) + (block[i + 3] as number)) / count;
+      }
+      return out;
+    }
     const weights = Float64Array.from(last.flatMap((weight) => [...weight, 1]));
     for (let i = 0; i < stride; i += 4) {
       const count = moment[i + 3] as number;

@@ -4,13 +4,15 @@ import { FILM_SUMS, type FilmPart, type FilmState } from './film-state';
 
 /** "GLZF", little-endian. */
 const MAGIC = 0x465a4c47;
-const VERSION = 4;
+const VERSION = 5;
+/** Words of a {@link Checksum}. */
+const LANES = 4;
 /** Magic, version, length of the JSON, checksum of all that follows. */
-export const HEADER_BYTES = 16;
+export const HEADER_BYTES = 12 + 4 * LANES;
 
-/** @param what Why bytes are no film. */
+/** @param what Why bytes are not a film. */
 export const broken = (what: string) =>
-  new RenderError('renderer/film-state', `These bytes are no film that can be resumed: ${what}. Render it again.`);
+  new RenderError('renderer/film-state', `These bytes are not a film that can be resumed: ${what}. Render it again.`);
 
 /** What the line of JSON in an encoded film says. */
 export type FilmHead = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
@@ -25,14 +27,47 @@ export type FilmHead = Omit<FilmState, 'sampling' | 'sums' | 'parts'> & {
 };
 
 /**
- * FNV-1a over 32-bit words: each step is a bijection, so no change of a single word goes unnoticed.
- *
- * @param hash Of the bytes before these.
+ * FNV-1a over 32-bit words, in four lanes: word i counts in lane i mod 4. Each step is a bijection, so no change of a
+ * single word goes unnoticed; lanes do not wait for one another, which one chain of multiplications would.
  */
-export function checksum({ buffer, byteOffset, byteLength }: ArrayBufferView<ArrayBuffer>, hash = 0x811c9dc5): number {
-  const words = new Uint32Array(buffer, byteOffset, byteLength >>> 2);
-  for (let i = 0; i < words.length; i++) hash = Math.imul(hash ^ (words[i] as number), 0x01000193);
-  return hash >>> 0;
+export class Checksum {
+  readonly #lanes = new Uint32Array(LANES).fill(0x811c9dc5);
+  /** Words so far. */
+  #at = 0;
+
+  /** Counts the next bytes: whole words. */
+  add({ buffer, byteOffset, byteLength }: ArrayBufferView<ArrayBuffer>): this {
+    const words = new Uint32Array(buffer, byteOffset, byteLength >>> 2);
+    let i = 0;
+    for (; i < words.length && this.#at % LANES > 0; i++) this.#one(words[i] as number);
+    let [a, b, c, d] = this.#lanes as unknown as [number, number, number, number];
+    const whole = words.length - ((words.length - i) % LANES);
+    this.#at += whole - i;
+    for (; i < whole; i += LANES) {
+      a = Math.imul(a ^ (words[i] as number), 0x01000193);
+      b = Math.imul(b ^ (words[i + 1] as number), 0x01000193);
+      c = Math.imul(c ^ (words[i + 2] as number), 0x01000193);
+      d = Math.imul(d ^ (words[i + 3] as number), 0x01000193);
+    }
+    this.#lanes.set([a, b, c, d]);
+    for (; i < words.length; i++) this.#one(words[i] as number);
+    return this;
+  }
+
+  #one(word: number): void {
+    const lane = this.#at++ % LANES;
+    this.#lanes[lane] = Math.imul((this.#lanes[lane] as number) ^ word, 0x01000193);
+  }
+
+  /** The sums, as a header has them. */
+  get words(): readonly number[] {
+    return [...this.#lanes];
+  }
+
+  /** Whether these are the sums. */
+  is(words: readonly number[]): boolean {
+    return this.#lanes.every((lane, i) => lane === words[i]);
+  }
 }
 
 /** Whether all words are 0; -0 is something else. */
@@ -105,24 +140,23 @@ export function encodeFilmPieces(state: FilmState, withBeauty = true): Uint8Arra
       ...partial.map((part) => part.sums),
     ].map(({ buffer, byteOffset, byteLength }) => new Uint8Array(buffer, byteOffset, byteLength)),
   ];
-  const hash = pieces.reduce(
-    (sum, piece, i) => checksum(i === 0 ? piece.subarray(HEADER_BYTES) : piece, sum),
-    checksum(new Uint8Array(0)),
-  );
+  const checksum = new Checksum();
+  for (const piece of pieces) checksum.add(piece === first ? piece.subarray(HEADER_BYTES) : piece);
   const view = new DataView(first.buffer);
-  [MAGIC, VERSION, textBytes, hash].forEach((word, i) => view.setUint32(4 * i, word, true));
+  [MAGIC, VERSION, textBytes, ...checksum.words].forEach((word, i) => view.setUint32(4 * i, word, true));
   return pieces;
 }
 
 export const DAMAGED = 'they are damaged or cut off: their checksum is another one';
 
 /** The first {@link HEADER_BYTES} of an encoded film: bytes of its JSON, and the checksum of all that follows. */
-export function readHeader(bytes: Uint8Array): { readonly textBytes: number; readonly hash: number } {
+export function readHeader(bytes: Uint8Array): { readonly textBytes: number; readonly hash: readonly number[] } {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < HEADER_BYTES || view.getUint32(0, true) !== MAGIC) throw broken('they do not begin as one');
   if (view.getUint32(4, true) !== VERSION)
     throw broken(`they are of version ${view.getUint32(4, true)}, and this is version ${VERSION}`);
-  return { textBytes: view.getUint32(8, true), hash: view.getUint32(12, true) };
+  const hash = Array.from({ length: LANES }, (_, i) => view.getUint32(12 + 4 * i, true));
+  return { textBytes: view.getUint32(8, true), hash };
 }
 
 /** @param at Where the numbers begin. @param bytes Of the film. */
@@ -138,13 +172,13 @@ export function checkLength(head: FilmHead, at: number, bytes: number): void {
 
 /**
  * The film that {@link encodeFilmState} has written.
- * @throws {RenderError} `renderer/film-state` for bytes that are no film, cut off, damaged, or of another version.
+ * @throws {RenderError} `renderer/film-state` for bytes that are not a film, truncated, damaged, or of another version.
  */
 export function decodeFilmState(bytes: Uint8Array): FilmState {
   const { textBytes, hash } = readHeader(bytes);
   // A copy if the words are not aligned in the caller's buffer.
   const body = (bytes.byteOffset % 4 === 0 ? bytes : bytes.slice()).subarray(HEADER_BYTES) as Uint8Array<ArrayBuffer>;
-  if (bytes.length % 4 !== 0 || checksum(body) !== hash) throw broken(DAMAGED);
+  if (bytes.length % 4 !== 0 || !new Checksum().add(body).is(hash)) throw broken(DAMAGED);
   const head = readHead(bytes.subarray(HEADER_BYTES, HEADER_BYTES + textBytes));
   const lengths = sumLengths(head);
   let at = HEADER_BYTES + textBytes;

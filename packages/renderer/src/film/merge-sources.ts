@@ -4,7 +4,7 @@ import { sumLengths } from './film-check';
 import {
   broken,
   checkLength,
-  checksum,
+  Checksum,
   DAMAGED,
   decodeFilmState,
   HEADER_BYTES,
@@ -32,17 +32,17 @@ const STEP = 2 ** 20;
 class FilmReader {
   readonly head: FilmHead;
   readonly #source: FilmSource;
-  readonly #expected: number;
-  #hash: number;
+  readonly #expected: readonly number[];
+  readonly #checksum: Checksum;
   /** Where the next bytes are. */
   #at: number;
 
-  private constructor(source: FilmSource, first: Uint8Array<ArrayBuffer>, head: FilmHead, expected: number) {
+  private constructor(source: FilmSource, first: Uint8Array<ArrayBuffer>, head: FilmHead, expected: readonly number[]) {
     this.#source = source;
     this.head = head;
     this.#expected = expected;
     this.#at = first.length;
-    this.#hash = checksum(first.subarray(HEADER_BYTES));
+    this.#checksum = new Checksum().add(first.subarray(HEADER_BYTES));
   }
 
   static async open(source: FilmSource): Promise<FilmReader> {
@@ -75,11 +75,23 @@ class FilmReader {
 
   /** Counts bytes that {@link next} has read, in their order. */
   count(bytes: Uint8Array<ArrayBuffer>): void {
-    this.#hash = checksum(bytes, this.#hash);
+    this.#checksum.add(bytes);
   }
 
   end(): void {
-    if (this.#hash !== this.#expected) throw broken(DAMAGED);
+    if (!this.#checksum.is(this.#expected)) throw broken(DAMAGED);
+  }
+
+  /** Reads all bytes again. @throws {RenderError} `renderer/film-state` if they are not those that were written */
+  async check(): Promise<void> {
+    const checksum = new Checksum();
+    const buffer = new Uint8Array(4 * STEP);
+    for (let at = HEADER_BYTES; at < this.#source.bytes; at += buffer.length) {
+      const part = buffer.subarray(0, Math.min(buffer.length, this.#source.bytes - at));
+      await this.#source.read(part, at);
+      checksum.add(part);
+    }
+    if (!checksum.is(this.#expected)) throw broken(DAMAGED);
   }
 
   /** The film as a whole. */
@@ -109,6 +121,16 @@ async function of<T>(source: FilmSource, run: () => T | Promise<T>): Promise<T> 
 export async function mergeFilmSources(sources: readonly FilmSource[]): Promise<FilmState> {
   const readers: FilmReader[] = [];
   for (const source of sources) readers.push(await of(source, () => FilmReader.open(source)));
+  try {
+    return await mergeReaders(readers);
+  } catch (error) {
+    // What a damaged film says of itself does not count.
+    for (const reader of readers) await of(reader.source, () => reader.check());
+    throw error;
+  }
+}
+
+async function mergeReaders(readers: readonly FilmReader[]): Promise<FilmState> {
   const sorted = readers
     .filter(({ head }) => head.samples > 0)
     .sort((a, b) => (a.head.ranges[0]?.[0] as number) - (b.head.ranges[0]?.[0] as number));

@@ -23,6 +23,9 @@ export interface AovBatch {
 
 const NO_AOVS: AovBatch = { begin: 0, end: 0, only: false };
 
+/** Where paths leave their light. */
+export type PathFilm = Pick<Film, 'pixels' | 'buffer' | 'bytes'>;
+
 /** How long paths may become. */
 export interface DepthLimits {
   /** Edges. */
@@ -58,7 +61,7 @@ export class Integrator {
   /** Number of the film's first sample. */
   firstSample = 0;
   #kernels: KernelSet;
-  #film: Film;
+  #film: PathFilm;
 
   /** @param features Those of the kernels that {@link begin} will bring. */
   constructor(
@@ -66,7 +69,7 @@ export class Integrator {
     memory: GpuMemory,
     scene: ResourceProvider,
     features: KernelFeatures,
-    film: Film,
+    film: PathFilm,
     requested: number | undefined,
     limits: DepthLimits,
   ) {
@@ -146,7 +149,7 @@ export class Integrator {
   }
 
   /** From now on paths go to this film. */
-  useFilm(film: Film): void {
+  useFilm(film: PathFilm): void {
     this.#film = film;
     this.rebind('film');
   }

@@ -1,4 +1,11 @@
-import { kernelSource, KERNELS, type Kernel, type KernelFeatures, type KernelName } from './pipelines';
+import {
+  kernelSource,
+  KERNELS,
+  type Kernel,
+  type KernelFeatures,
+  type KernelName,
+  type KernelParts,
+} from './pipelines';
 
 /** The kernels that a scene's main loop needs, compiled for its features. */
 export interface KernelSet {
@@ -87,13 +94,13 @@ export class KernelCache {
     return { set, count: names.length, ready, listeners };
   }
 
-  /** One kernel. What is not needed for the first image is loaded first. */
-  async kernel(name: KernelName, features: KernelFeatures): Promise<Kernel> {
-    const root =
-      name === 'noise' || name === 'relight' || name === 'variance'
-        ? (await import('../film/film-data')).FILM_KERNELS[name]
-        : undefined;
-    const source = kernelSource(name, features, root);
+  /** One kernel. What is not needed for the first image is loaded first. @param parts See {@link kernelSource}. */
+  async kernel(name: KernelName, features: KernelFeatures, parts?: KernelParts): Promise<Kernel> {
+    if (name === 'noise' || name === 'relight' || name === 'variance')
+      parts = { root: (await import('../film/film-data')).FILM_KERNELS[name] };
+    if (name === 'shade' && features.flags.GUIDE) parts = (await import('./guide-kernels')).GUIDED_SHADE;
+    if (name === 'shade' && features.flags.SHADOW_SOFTNESS) parts = (await import('./soft-shadows')).softened(parts);
+    const source = kernelSource(name, features, parts);
     return remember(this.#kernels, source.key, () => source.compile(this.#device));
   }
 }

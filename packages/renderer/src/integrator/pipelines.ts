@@ -209,6 +209,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           'environment_table',
           ...energy,
           ...recording,
+          ...(flags.GUIDE ? (['guide'] as const) : []),
         ],
         textures: true,
       };
@@ -300,23 +301,27 @@ export interface KernelSource {
   readonly compile: (device: GPUDevice) => Promise<Kernel>;
 }
 
+/** What is loaded later of a kernel's text: its entry point, more of what it calls, other resources. */
+export type KernelParts = Partial<Pick<KernelText, 'root' | 'host' | 'resources'>>;
+
 /**
  * The text of one kernel for a scene's features.
  *
- * @param root The module with its entry point, for those of `FILM_KERNELS`.
+ * @param parts In place of its own, for those of `FILM_KERNELS`, or added to it.
  */
-export function kernelSource(name: KernelName, features: KernelFeatures, root?: WgslModule): KernelSource {
-  const text = kernelText(name, features);
-  const own = text.flags ?? features.flags;
+export function kernelSource(name: KernelName, features: KernelFeatures, parts: KernelParts = {}): KernelSource {
+  const own = kernelText(name, features);
+  const text = { ...own, ...parts, host: [...(own.host ?? []), ...(parts.host ?? [])] };
+  const chosen = text.flags ?? features.flags;
   const flags = {
-    ...own,
-    BVH_FILTER: own.OPACITY === true || own.CULLING === true,
+    ...chosen,
+    BVH_FILTER: chosen.OPACITY === true || chosen.CULLING === true,
     PASSES: features.lightPasses > 1,
   };
   const groups = kernelBindings(text.resources, text.textures ? sceneBindings(features) : []);
   const bindings = bindingModule(name, groups, flags);
-  const host = (text.host ?? []).filter((module) => !!module);
-  const shader = compose([bindings, ...host, root ?? text.root], { flags });
+  const host = text.host.filter((module) => !!module);
+  const shader = compose([bindings, ...host, text.root], { flags });
   return {
     key: `${name}\n${shader.code}`,
     async compile(device) {

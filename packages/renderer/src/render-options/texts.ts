@@ -58,6 +58,10 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     doc: 'Widens sharp lobes after bounces off rough surfaces: 0 is off, 0.25 removes most fireflies of caustics.',
     biased: true,
   },
+  shadowSoftness: {
+    doc: 'Softens shadows on catchers: 0 is as the lights cast them, 1 spreads rays by up to 30 degrees.',
+    biased: true,
+  },
   clampIndirect: {
     doc: 'Maximum radiance of light that took two bounces or more. Removes fireflies, and energy with them.',
     biased: true,
@@ -66,6 +70,10 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
   caustics: {
     doc: 'Light that reaches a matte surface through a sharp reflection or refraction.',
     biased: true,
+  },
+  guiding: {
+    doc: 'Millions of paths that learn, before the first sample, from where light comes to surfaces; 0 is off.',
+    softRange: [0, 64],
   },
   multipleScattering: {
     doc: 'Compensates the energy that single-scattering microfacet models lose. Off only for comparisons.',

@@ -373,6 +373,13 @@ export class GpuScene {
     await Promise.all(written);
   }
 
+  /** Takes the tables of a guide, see guide.wesl: rows of `width` numbers. */
+  setGuide(table: Float32Array<ArrayBuffer>, width: number): void {
+    const size = [width, table.length / width];
+    const texture = this.#resources.makeTexture('guide', { size, format: 'r32float' }, table.byteLength);
+    this.#device.queue.writeTexture({ texture }, table, { bytesPerRow: 4 * width }, size);
+  }
+
   /** Sorts the lights into groups again; where that changes anything, materials are written again. */
   #updateGroups(): boolean {
     const changed = this.#lights.updateGroups();

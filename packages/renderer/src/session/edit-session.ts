@@ -20,8 +20,10 @@ export interface EditHost {
   readonly film: FilmSession;
   /** What the scene, the camera and the options ask of the kernels. */
   readonly features: () => KernelFeatures;
-  /** Starts the film again. */
-  readonly restart: (effect: EditEffect, moves?: readonly Move[]) => void;
+  /** An edit has been made: starts the film again, unless it accumulates. */
+  readonly edited: (effect: EditEffect, moves?: readonly Move[]) => void;
+  /** Starts the film again, without history. */
+  readonly restart: () => void;
 }
 
 /** An edit that has been made, and can be taken back until it is settled. */
@@ -79,7 +81,7 @@ export class EditSession {
   }
 
   async #make(change: SceneChange): Promise<void> {
-    const { device, gpuScene, integrator, memory, restart } = this.#host;
+    const { device, edited, gpuScene, integrator, memory, restart } = this.#host;
     const { result: edit, verified } = inErrorScopes(device, 'this edit', () =>
       gpuScene.record(change.apply, change.undo),
     );
@@ -95,7 +97,7 @@ export class EditSession {
     }
     if (edit.result) integrator.rebind('scene');
     const { effect = 'invalidates' } = change;
-    if (effect !== 'keeps') restart(effect, change.moves);
+    if (effect !== 'keeps') edited(effect, change.moves);
     const made: Made = { effect, settle: edit.settle, takeBack };
     this.#made.push(made);
     const kernels = this.#bringKernels();
@@ -108,7 +110,7 @@ export class EditSession {
         takeBack();
         this.#bringKernels().catch(() => {});
       } else gpuScene.rewrite();
-      if (effect !== 'keeps') restart('invalidates');
+      if (effect !== 'keeps') restart();
       throw error;
     });
     await kernels;
@@ -139,7 +141,7 @@ export class EditSession {
         continue;
       }
       film.replace(next);
-      restart('invalidates');
+      restart();
     }
   }
 
@@ -166,7 +168,7 @@ export class EditSession {
         const keeps = this.#keepsFilm;
         this.#settle();
         if (keeps) this.#host.film.restartAovs();
-        else restart('invalidates');
+        else restart();
         return;
       }
     } catch (error) {
@@ -174,7 +176,7 @@ export class EditSession {
       if (request === this.#requests) {
         const keeps = this.#keepsFilm;
         for (const { takeBack } of this.#made.splice(0).reverse()) takeBack();
-        if (!keeps) restart('invalidates');
+        if (!keeps) restart();
         throw error;
       }
     }

@@ -126,13 +126,15 @@ export class FilmSession {
   }
 
   /**
-   * Starts the film again, for what the frame uniforms and the light groups are now.
+   * Starts the film again, for what the frame uniforms and the light groups are now; or goes on with other uniforms.
    *
    * @param effect What has changed.
    * @param first Number of its first sample; default: the same as before.
    * @param moves Instances that have moved.
    */
   restart(effect: EditEffect, first = this.#first, moves?: readonly Move[]): void {
+    this.#frameDirty = true;
+    if (effect === 'keeps') return;
     const { device, integrator } = this.#host;
     const { width, height } = this.#film;
     this.#history.restart(effect, this.samples, { camera: this.#host.camera(), width, height }, moves);
@@ -141,7 +143,6 @@ export class FilmSession {
     this.#headCopied = false;
     this.#broken = false;
     this.aovs.restart();
-    this.#frameDirty = true;
     this.#firstWeights = this.groups.weights;
     // Keeps what was learned about the GPU's speed.
     if (this.#sampling) this.#sampling = this.#newSampling(this.#sampling.paths);
@@ -195,13 +196,9 @@ export class FilmSession {
   /** See `PathTracer.render`. */
   async *render(options: RenderOptions): AsyncGenerator<RenderProgress, void, undefined> {
     const { samples, noise, maxSubmitMs } = renderGoal(options);
-    if (this.#rendering)
-      throw new RenderError('renderer/busy', 'This tracer is already rendering: finish or abort that first.');
+    if (this.#rendering) throw new RenderError('renderer/busy', 'This tracer is rendering: finish or abort that.');
     if (this.#first > 0 && noise !== undefined)
-      throw new RenderError(
-        'renderer/samples',
-        `A noise target needs a film from sample 0, not ${this.#first}: see reset().`,
-      );
+      throw new RenderError('renderer/samples', `A noise target needs a film from sample 0, not ${this.#first}.`);
     this.#rendering = true;
     try {
       if (this.#broken) this.restart('invalidates');

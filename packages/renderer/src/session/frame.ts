@@ -29,7 +29,10 @@ export function packFrame(
     first_area_light: scene.areaLights.first,
     area_light_count: scene.areaLights.count,
     background:
-      (transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) | (environment.visible ? 0 : BACKGROUND_HIDDEN),
+      ((transparent ? BACKGROUND_TRANSPARENT | BACKGROUND_HIDDEN : 0) |
+        (environment.visible ? 0 : BACKGROUND_HIDDEN) |
+        (Math.round(options.shadowSoftness * 65_535) << 16)) >>>
+      0,
     environment_radiance: environment.radiance,
     mean_luminance: environment.meanLuminance,
     environment_probability: scene.environmentProbability,

@@ -19,6 +19,7 @@ export const frameStruct = struct('Frame', {
   seed: 'u32',
   max_depth: 'u32',
   light_count: 'u32',
+  /** Bits `BACKGROUND_…`; in the upper half the softness of shadows, 65,535 for 1. */
   background: 'u32',
   environment_radiance: 'vec3f',
   environment_probability: 'f32',

@@ -55,6 +55,7 @@ const SCENE = {
   energy_dielectric: { type: 'texture_3d<f32>', space: 'texture_3d' },
   energy_conductor: { type: 'texture_2d<f32>', space: 'texture_2d' },
   energy_sampler: { type: 'sampler', space: 'sampler' },
+  guide: { type: 'texture_2d<f32>', space: 'unfilterable' },
 } as const satisfies Record<string, Resource>;
 
 /** Replaced when the film changes its size or scale. */
@@ -71,6 +72,7 @@ const FILM = {
   aov_ids: { type: 'array<vec4u>', space: 'read_write' },
   aov_motion: { type: 'array<vec2f>', space: 'read_write' },
   film_variance: { type: 'array<vec4f>', space: 'read_write' },
+  guide_points: { type: 'array<vec4f>', space: 'read' },
 } as const satisfies Record<string, Resource>;
 
 /**

@@ -106,7 +106,7 @@ describe('films that are merged while they are read', () => {
       expect(Buffer.compare(Buffer.from(merged.sums[name].buffer), Buffer.from(expected.sums[name].buffer))).toBe(0);
     for (const { source, reads } of sources) {
       const [header, first, ...rest] = reads as [[number, number], [number, number], ...[number, number][]];
-      expect([header, first[0]]).toEqual([[0, 16], 0]);
+      expect([header, first[0]]).toEqual([[0, 28], 0]);
       let at = first[1];
       for (const [position, length] of rest) {
         expect(position).toBe(at);

@@ -13,7 +13,7 @@ beforeAll(async () => {
 afterEach(() => expectNoGpuErrors());
 
 const SIZE = 16;
-const ALL: readonly AovName[] = ['albedo', 'coverage', 'normal', 'depth', 'virtualDepth', 'position'];
+const ALL: readonly AovName[] = ['albedo', 'coverage', 'normal', 'depth', 'virtualDepth', 'position', 'roughness'];
 const WALL = [0.25, 0.5, 0.75] as const;
 
 async function layers(scene: Scene, more: Partial<PathTracerOptions> = {}) {
@@ -95,6 +95,7 @@ describe('mirrors', () => {
           expect(Math.abs(found.normal[3 * i + c]! - [-1, 0, 0][c]!)).toBeLessThan(1e-4);
         }
         expect(found.coverage[i]).toBe(1);
+        expect(found.roughness[i]).toBe(1);
         const expected = traced(x, y);
         // 64 stratified samples and 64 midpoints of functions that vary by less than 0.4 in a pixel agree to some 1e-3.
         expect(Math.abs(found.depth[i]! - expected.depth)).toBeLessThan(0.005);
@@ -142,9 +143,10 @@ describe('mirrors', () => {
   it('show themselves where they show nothing', async () => {
     const scene = mirrored(mirror(0));
     scene.instances[1]!.visible = false;
-    const { albedo, normal, depth, virtualDepth } = await layers(scene);
+    const { albedo, normal, depth, virtualDepth, roughness } = await layers(scene);
     expect(Math.abs(mean(albedo, 3, 1) - 1)).toBeLessThan(1e-3);
     expect(Math.abs(mean(normal, 3, 2) - S)).toBeLessThan(1e-4);
+    expect(Math.max(...roughness)).toBeLessThan(0.02);
     expect(virtualDepth).toEqual(depth);
   });
 

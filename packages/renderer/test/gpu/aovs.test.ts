@@ -7,7 +7,7 @@ import { addBox, addQuad, addSphere, camera, createScene, lambert } from '../sce
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 afterEach(() => expectNoGpuErrors());
 
@@ -162,6 +162,11 @@ it('tells how narrowly surfaces scatter: a metal as its roughness says, Lambert 
     expect(ids[centre]).toBe(0);
     return roughness[centre] as number;
   };
+  const emitter: Material = {
+    name: 'emitter',
+    parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 1, emission_color: [1, 1, 1] },
+  };
+  expect(await of(emitter)).toBe(0);
   // What rough facets scatter more than once leaves them widely.
   for (const [roughness, slack] of [
     [0.1, 0.001],

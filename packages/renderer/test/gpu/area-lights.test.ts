@@ -8,7 +8,7 @@ type Vector = readonly [number, number, number];
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 afterAll(() => expectNoGpuErrors());
 

@@ -219,7 +219,9 @@ describe('hierarchies built on the GPU', () => {
 
   it('report a device that is lost while they are built', async () => {
     const { gpu } = await createGpu({ software: 'only' });
-    for (const stop of ['glanz build positions', 'bvh primitives', 'bvh read', 'glanz read']) {
+    // Each device compiles the builder's programs: at its first buffer and at the last copy, with --full at two between.
+    const stops = ['glanz build positions', 'bvh primitives', 'bvh read', 'glanz read'];
+    for (const stop of process.env['GLANZ_FULL'] ? stops : [stops[0]!, stops[3]!]) {
       const own = await requestDevice({ gpu });
       const losing = new Proxy(own, {
         get: (target, name) => {

@@ -6,7 +6,7 @@ import { addQuad, addSphere, camera, createScene, lambert, meanOf, middle } from
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 afterAll(() => expectNoGpuErrors());
 

@@ -6,7 +6,7 @@ import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 afterEach(() => expectNoGpuErrors());
 

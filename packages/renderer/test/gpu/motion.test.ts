@@ -121,14 +121,21 @@ it('comes with setAovs too, and takes all that have moved', async () => {
   const tracer = await PathTracer.create(device, stage, { ...options, aovs: [] });
   await sampled(tracer, 1);
   // From behind everything to the front, in any order: more than the buffer has at first.
-  for (const i of [5, 1, 7, 3, 2, 4, 6]) await tracer.setInstanceTransform(i, moved(0.1 * i, 0, 0.1 * i));
-  const { motion, ids } = await sampled(tracer, 8);
+  // Neighbours move to opposite sides, so that the move of another copy leads elsewhere.
+  const aside = (i: number) => (i % 2 === 1 ? 0.1 : -0.1) * i;
+  for (const i of [5, 1, 7, 3, 2, 4, 6]) await tracer.setInstanceTransform(i, moved(aside(i), 0, 0.1 * i));
+  const { motion, ids } = await sampled(tracer);
   const centre = (SIZE / 2) * SIZE + SIZE / 2;
   expect(ids[centre]).toBe(7);
   const views = { transform: still, yfov: (camera as unknown as { yfov: number }).yfov };
-  // What is seen at the axis now was at x = −0.7 and z = −7.
-  const [x] = project(views, [-0.7, 0, -7]);
-  const [now] = project(views, [0, 0, 0.7]);
-  expect(Math.abs(motion[2 * centre]! - (x - now))).toBeLessThan(0.5);
+  // What is seen by the ray through the pixel's centre, 2.3 away now, was 10 away. Of 64 Sobol points one lies in each
+  // cell of 8 × 8, so the one nearest to the centre is at most √2/8 of a pixel off; where the copy was seen moves by
+  // 2.3/10 of that.
+  const half = (0.5 * 2.3) / (SIZE / 2 / Math.tan(views.yfov / 2));
+  const [x, y] = project(views, [half - 0.7, -half, -7]);
+  const [nowX, nowY] = project(views, [half, -half, 0.7]);
+  expect(nowX).toBeCloseTo(SIZE / 2 + 0.5, 6);
+  const off = Math.hypot(motion[2 * centre]! - (x - nowX), motion[2 * centre + 1]! - (y - nowY));
+  expect(off).toBeLessThan((1 - 2.3 / 10) * (Math.SQRT2 / 8) + 1e-4);
   tracer.destroy();
 });

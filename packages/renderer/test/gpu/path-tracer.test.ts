@@ -7,7 +7,7 @@ import { addQuad, addSphere, camera, createScene, lambert, meanOf } from '../sce
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 
 async function render(

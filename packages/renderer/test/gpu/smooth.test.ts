@@ -6,7 +6,7 @@ import { addBox, addQuad, camera, createScene } from '../scenes';
 
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 afterAll(() => expectNoGpuErrors());
 
