@@ -9,4 +9,5 @@ export default glanzPackage({
   denoise: 'src/denoise.ts',
   'fit-camera': 'src/fit-camera.ts',
   'render-image': 'src/render-image.ts',
+  record: 'src/record/index.ts',
 });

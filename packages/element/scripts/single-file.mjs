@@ -1,7 +1,7 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
-// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, animations, a ground), and what
-// saves images, lies beside it and is fetched by import() when it is needed.
+// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, animations, a ground, guiding), and
+// what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -26,7 +26,7 @@ else if (self.name === 'glanz-bvh') {
 
 /** Modules that have files of their own, by the name that the sources import. */
 const LATER = {
-  '@glanz/formats': 'glanz-viewer.formats.min.js',
+  '@glanz/formats/usd': 'glanz-viewer.usd.min.js',
   '@glanz/image/environment': 'glanz-viewer.environment.min.js',
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
@@ -34,8 +34,12 @@ const LATER = {
   './animation-player': 'glanz-viewer.animation.min.js',
   './stage': 'glanz-viewer.stage.min.js',
   './ldr-environment': 'glanz-viewer.ldr.min.js',
+  './load-other': 'glanz-viewer.formats.min.js',
   './prompt': 'glanz-viewer.prompt.min.js',
   './gpu-trees': 'glanz-viewer.gpu-trees.min.js',
+  './guide-kernels': 'glanz-viewer.guide-kernels.min.js',
+  './soft-shadows': 'glanz-viewer.soft-shadows.min.js',
+  './session/guide-training': 'glanz-viewer.guide.min.js',
 };
 
 /** Where the modules of the sources among them are, from the viewer's folder. */
@@ -45,12 +49,21 @@ const SOURCES = {
   './animation-player': './src/animation-player',
   './stage': './src/stage',
   './ldr-environment': './src/ldr-environment',
+  './load-other': './src/load-other',
   './prompt': '../element/src/prompt',
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
+  './guide-kernels': '../renderer/src/integrator/guide-kernels',
+  './soft-shadows': '../renderer/src/integrator/soft-shadows',
+  './session/guide-training': '../renderer/src/session/guide-training',
 };
 
-/** What the player of animations uses of them. */
-const SHARED = Object.fromEntries(['meshoptimizer/decoder', './stage'].map((module) => [module, LATER[module]]));
+const pick = (...modules) => Object.fromEntries(modules.map((module) => [module, LATER[module]]));
+
+/** What some of them use of others. */
+const SHARED = {
+  './animation-player': pick('meshoptimizer/decoder', './stage'),
+  './load-other': pick('@glanz/formats/usd'),
+};
 
 /** The same for modules of src/decoders, by their names there; of each, what it exports. */
 const DECODERS = {
@@ -129,7 +142,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|prompt|gpu-trees)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );
@@ -170,7 +183,7 @@ export async function buildSingleFile(folder, to) {
     names.push(
       await write(`export * from '${SOURCES[module] ?? module}';`, name, {
         '@glanz/wgsl/error': MAIN,
-        ...(module === './animation-player' ? SHARED : {}),
+        ...SHARED[module],
       }),
     );
   for (const [module, { file, exports }] of Object.entries(DECODERS))

@@ -7,7 +7,7 @@ export type AttributeKind = 'text' | 'flag' | 'number';
  * stands for the values and the default of an option of the renderer, whose range is that of the attribute.
  */
 export const ATTRIBUTES = {
-  /** Address of the model: glTF, GLB, OBJ or STL. */
+  /** Address of the model: glTF, GLB, OBJ, STL or USD. */
   src: 'text',
   /** Name of the model, for those who do not see it. */
   alt: 'text',
@@ -205,6 +205,12 @@ export const ATTRIBUTES = {
    * @option backFaceCulling
    */
   'back-face-culling': 'text',
+  /**
+   * Softens the shadow on the ground beneath the model, 0 to 1: 0 is as the lights cast it, 1 spreads it by 30 degrees.
+   * A biased option.
+   * @option shadowSoftness
+   */
+  'shadow-softness': 'number',
   /**
    * Address of an ES module that replaces the package's decoder of Draco. Its default export is the module of
    * `draco3dgltf`, or a function that returns it or a promise of it.

@@ -14,10 +14,10 @@ import {
   applySettings,
   backgroundOf,
   credentialsOf,
-  cullingOf,
   decodersOf,
   environmentOf,
   groundOf,
+  tracerOptionsOf,
   transformOf,
 } from './settings';
 import { fillShadow, type Shadow } from './shadow';
@@ -170,7 +170,7 @@ function makeClass(): GlanzViewerConstructor {
       const viewer = this.#viewer;
       if (!viewer) return;
       this.#checkAttribute(name);
-      if (name === 'back-face-culling') {
+      if (name === 'back-face-culling' || name === 'shadow-softness') {
         // Of a path tracer it is part, so there is another one.
         this.#stop();
         this.#start();
@@ -329,7 +329,7 @@ function makeClass(): GlanzViewerConstructor {
         ground: groundOf(this),
         credentials: credentialsOf(this),
         decoders: packagedDecoders(decodersOf(this)),
-        tracer: { backFaceCulling: cullingOf(this) },
+        tracer: tracerOptionsOf(this),
         camera: (scene, aspect) => cameraOf(scene, aspect, this.#view),
       }));
       for (const name of Object.keys(ATTRIBUTES) as AttributeName[]) this.#checkAttribute(name);

@@ -46,10 +46,19 @@ export function groundOf(element: Element): GroundOptions | undefined {
 export const credentialsOf = (element: Element): RequestCredentials =>
   element.hasAttribute('with-credentials') ? 'include' : 'same-origin';
 
-/** Which faces are left out. */
-export function cullingOf(element: Element): BackFaceCulling {
+/** Options that a path tracer has from its beginning. */
+export function tracerOptionsOf(element: Element): {
+  readonly backFaceCulling: BackFaceCulling;
+  readonly shadowSoftness: number;
+} {
   const mode = element.getAttribute('back-face-culling');
-  return takesOption('backFaceCulling', mode) ? (mode as BackFaceCulling) : RENDER_OPTIONS.backFaceCulling.default;
+  const softness = Number(element.getAttribute('shadow-softness'));
+  return {
+    backFaceCulling: takesOption('backFaceCulling', mode)
+      ? (mode as BackFaceCulling)
+      : RENDER_OPTIONS.backFaceCulling.default,
+    shadowSoftness: takesOption('shadowSoftness', softness) ? softness : RENDER_OPTIONS.shadowSoftness.default,
+  };
 }
 
 /** Addresses of decoders, read when one is needed. */

@@ -63,7 +63,7 @@ test('methods and events are those of the README', () => {
 test('attributes of render options have the values, the range and the default of the table', () => {
   const rows: Readonly<Record<string, RenderOption>> = RENDER_OPTIONS;
   const names = (Object.keys(ATTRIBUTES) as AttributeName[]).filter((name) => Object.hasOwn(rows, camel(name)));
-  expect(names).toEqual(['samples', 'noise', 'max-depth', 'back-face-culling']);
+  expect(names).toEqual(['samples', 'noise', 'max-depth', 'back-face-culling', 'shadow-softness']);
   for (const name of names) {
     const row = rows[camel(name)]!;
     const attribute = element.attributes.find((one) => one.name === name)!;

@@ -223,6 +223,23 @@ test('back-face-culling shows what is behind the backs of faces, and without it 
     .toBeGreaterThan(0x60);
 });
 
+test('shadow-softness softens the shadow on the ground, and without it the image is as before', async ({ page }) => {
+  await open(page, { 'shadow-intensity': '1', 'camera-orbit': '20deg 65deg 6m', samples: '6' });
+  const hard = (await shot(page)).cells;
+  const set = async (softness: number | null, loads: number) => {
+    await page.evaluate((value) => {
+      const element = document.querySelector('glanz-viewer')!;
+      if (value === null) element.removeAttribute('shadow-softness');
+      else element.setAttribute('shadow-softness', String(value));
+    }, softness);
+    await expect.poll(async () => (await heard(page, 'load')).length).toBe(loads);
+    await done(page);
+    return (await shot(page)).cells;
+  };
+  expect(await set(1, 2)).not.toEqual(hard);
+  expect(await set(null, 3)).toEqual(hard);
+});
+
 test('hotspots stay on the model, hide behind it, and can be moved', async ({ page }) => {
   await open(
     page,

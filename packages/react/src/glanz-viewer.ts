@@ -7,8 +7,10 @@ import {
   useRef,
   type ForwardRefExoticComponent,
   type RefAttributes,
+  type RefObject,
 } from 'react';
 import { attributesOf } from './attributes';
+import type { DeclaredLook, LookKeeper } from './declared-look';
 import type { GlanzViewerTag, HtmlProps } from './html';
 
 type Source = Parameters<GlanzViewerElement['show']>[0];
@@ -22,6 +24,13 @@ type Detail<K extends keyof GlanzViewerEventMap> = GlanzViewerEventMap[K]['detai
 export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src'>>, HtmlProps {
   /** An address, a file, files, or a scene. */
   readonly src?: Source | null;
+  /**
+   * Parameters of materials by their names, as `Viewer.setMaterial` takes them: `{ seat: { base_color: 'firebrick' } }`.
+   * What is left out again becomes what it is in the file. Errors come by `onError`, with the codes of `setMaterial`.
+   */
+  readonly materials?: DeclaredLook['materials'] | null;
+  /** Whether parts are shown, by their names: `{ lid: false }`. What is left out again is shown as in the file. */
+  readonly parts?: DeclaredLook['parts'] | null;
   /**
    * Factor of the image's brightness, as in model-viewer.
    * @deprecated Use `exposureEv`, the factor's base-2 logarithm. Supported until the next minor version.
@@ -103,7 +112,8 @@ export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttrib
     return () => listeners.abort();
   }, []);
 
-  const { src, children, ...rest } = props;
+  const { src, children, materials, parts, ...rest } = props;
+  useLook(element, latest, { materials: materials ?? undefined, parts: parts ?? undefined });
   const address = typeof src === 'string' || src instanceof URL ? String(src) : undefined;
   const source = address === undefined && src ? src : undefined;
   useEffect(() => {
@@ -128,6 +138,49 @@ export const GlanzViewer: ForwardRefExoticComponent<GlanzViewerProps & RefAttrib
     children,
   );
 });
+
+/** Keeps the model of an element as its look is declared. */
+function useLook(
+  element: RefObject<GlanzViewerElement | null>,
+  latest: RefObject<GlanzViewerProps>,
+  look: DeclaredLook,
+): void {
+  const keeper = useRef<LookKeeper>(null);
+  const requested = useRef(look);
+  const isUsed = look.materials !== undefined || look.parts !== undefined;
+  useEffect(() => {
+    requested.current = look;
+    keeper.current?.apply(look);
+  });
+  useEffect(() => {
+    const target = element.current as GlanzViewerElement;
+    if (!isUsed) return undefined;
+    const report = (error: unknown) => {
+      const { message = String(error), code = 'unexpected' } = error as { message?: string; code?: string };
+      const { onError } = latest.current;
+      if (onError) onError({ error, message, code });
+      else globalThis.reportError(error);
+    };
+    // Fetched while the model is, so that no image shows it otherwise.
+    const module = import('./declared-look');
+    module.catch(() => undefined);
+    let loads = 0;
+    const begin = async (load: number) => {
+      const { LookKeeper } = await module;
+      // Another model may have come, or the component gone.
+      if (!target.viewer || load !== loads) return;
+      keeper.current = new LookKeeper(target.viewer, report);
+      keeper.current.apply(requested.current);
+    };
+    const load = () => void begin(++loads).catch(report);
+    target.addEventListener('load', load);
+    if (target.loaded) load();
+    return () => {
+      loads++;
+      target.removeEventListener('load', load);
+    };
+  }, [isUsed, element, latest]);
+}
 
 declare module 'react' {
   namespace JSX {

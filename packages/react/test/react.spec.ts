@@ -157,3 +157,52 @@ test('HTML attributes and handlers reach the element, and change with the props'
   await expect(viewer).not.toHaveAttribute('hidden');
   expect(await state()).toMatchObject({ inert: false, draggable: true, title: '' });
 });
+
+test('materials and parts are as they are declared, and as in the file when they are left out again', async ({
+  page,
+}) => {
+  const two = quads([
+    { name: 'seat', colour: [0.9, 0.02, 0.02] },
+    { name: 'lid', colour: [0.02, 0.02, 0.9], at: [0, 0, 0.1] },
+  ]);
+  await page.route('**/two.glb', (route) => route.fulfill({ body: two }));
+  const props: GlanzViewerProps = { src: 'two.glb', ...FAST };
+  const scene = () =>
+    page.evaluate(() => {
+      const { materials, instances } = window.seen.element!.viewer!.scene!;
+      const { base_color, base_metalness, coat_weight } = materials.find(({ name }) => name === 'seat')!.parameters;
+      const round = (color?: readonly number[]) => color?.map((value) => Math.round(100 * value) / 100);
+      return [
+        round(base_color),
+        base_metalness,
+        coat_weight ?? 0,
+        ...instances.map(({ visible }) => visible !== false),
+      ];
+    });
+  const own = [[0.9, 0.02, 0.02], 0, 0, true, true];
+  await page.evaluate((given) => window.start(given), {
+    ...props,
+    materials: { seat: { base_color: 'rgb(0 255 0)', coat_weight: 1 } },
+    parts: { lid: false },
+  } satisfies GlanzViewerProps);
+  await expect.poll(() => heard(page)).toContain('converged 6');
+  await expect.poll(scene).toEqual([[0, 1, 0], 0, 1, true, false]);
+  await expect.poll(async () => (await middle(page))[1] > 2 * (await middle(page))[0]).toBe(true);
+
+  await page.evaluate((given) => window.give(given), {
+    ...props,
+    materials: { seat: { base_metalness: 1 } },
+    parts: {},
+  } satisfies GlanzViewerProps);
+  await expect.poll(scene).toEqual([[0.9, 0.02, 0.02], 1, 0, true, true]);
+  await page.evaluate((given) => window.give(given), props);
+  await expect.poll(scene).toEqual(own);
+
+  // To another model the look is applied again; what it does not have is an error.
+  const look: GlanzViewerProps = { materials: { red: { base_metalness: 1 }, seat: { base_metalness: 1 } } };
+  await page.evaluate((given) => window.give(given), { ...props, ...look, src: 'red.glb' });
+  await expect.poll(async () => (await heard(page)).at(-1)).not.toBe('load');
+  const metal = () => page.evaluate(() => window.seen.element!.viewer!.scene!.materials[0]!);
+  await expect.poll(metal).toMatchObject({ name: 'red', parameters: { base_metalness: 1 } });
+  await expect.poll(() => heard(page)).toContain('error renderer/material');
+});

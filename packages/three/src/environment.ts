@@ -99,7 +99,7 @@ async function readImage(
     : undefined;
   if (!image)
     return warn(
-      'The environment is no equirectangular image and no cube whose pixels can be read (not loaded yet, compressed, or with another mapping): give it the mapping EquirectangularReflectionMapping',
+      'The environment is neither an equirectangular image nor a cube whose pixels can be read (not loaded yet, compressed, or with another mapping): give it the mapping EquirectangularReflectionMapping',
     );
   const { width, height } = image;
   const rgb = radianceOf(image, texture);

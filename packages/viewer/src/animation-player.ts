@@ -1,7 +1,7 @@
 import type { Blas } from '@glanz/bvh';
 import { RefitQuality } from '@glanz/bvh/refit-quality';
 import { refitBlas } from '@glanz/bvh/refit';
-import { openAnimations, type ScenePoser } from '@glanz/gltf/animation';
+import { openAnimations, type PoseChange, type ScenePoser } from '@glanz/gltf/animation';
 import type { PathTracer } from '@glanz/renderer';
 import type { Scene, SceneAnimation } from '@glanz/scene';
 import { abortError, isAbort, isLoss } from './aborts';
@@ -37,6 +37,8 @@ export interface AnimatedModel {
   readonly place: () => readonly number[] | undefined;
   /** Applies a change with the next frame; of several that wait, the last one counts. */
   readonly edit: (change: (tracer: PathTracer) => void | Promise<void>) => Promise<void>;
+  /** Opens the animations again, for another tracer's scene of the model. */
+  readonly reopen: (scene: Scene) => Promise<ScenePoser>;
   /** Wakes the viewer's loop. */
   readonly wake: () => void;
   readonly emit: <K extends 'play' | 'pause' | 'loop' | 'finished'>(type: K, detail: ViewerEvents[K]) => void;
@@ -108,7 +110,7 @@ export class AnimationPlayer {
     return this.#time;
   }
 
-  /** @throws {ViewerError} `viewer/option` for what is no finite number. */
+  /** @throws {ViewerError} `viewer/option` for what is not a finite number. */
   set currentTime(seconds: number) {
     if (!Number.isFinite(seconds)) throw notFinite('currentTime', seconds);
     this.#name ??= this.animations[0]?.name;
@@ -121,7 +123,7 @@ export class AnimationPlayer {
     return this.#timeScale;
   }
 
-  /** @throws {ViewerError} `viewer/option` for what is no finite number. */
+  /** @throws {ViewerError} `viewer/option` for what is not a finite number. */
   set timeScale(factor: number) {
     if (!Number.isFinite(factor)) throw notFinite('timeScale', factor);
     this.#timeScale = factor;
@@ -167,6 +169,16 @@ export class AnimationPlayer {
     // The main thread may have been busy for longer than an animation should jump.
     this.#advance(Math.min(seconds, 1) * this.#timeScale * this.#direction);
     return this.#pose();
+  }
+
+  /** @internal What brings another tracer of the model to a pose: of an animation, so many seconds from its start. */
+  async poserFor(tracer: PathTracer): Promise<(name: string | undefined, seconds: number) => Promise<void>> {
+    const poser = await this.#model.reopen(tracer.scene);
+    const place = this.#model.place();
+    return async (name, seconds) => {
+      const change = poser.pose(name, seconds);
+      await Promise.all([...applyPlacements(tracer, change, place), ...applyShapes(tracer, change)]);
+    };
   }
 
   /** @internal Another model is shown. */
@@ -228,17 +240,11 @@ export class AnimationPlayer {
     if (this.#destroyed) return undefined;
     const change = this.#poser.pose(this.#name, this.#time);
     const { failed } = this.#model;
-    const place = this.#model.place();
     // Their images are those of the next sample; what the GPU says to them comes later.
-    const now = (edit: Promise<void>) => void edit.catch(failed);
-    for (const { instance, transform } of change.transforms)
-      now(tracer.setInstanceTransform(instance, place ? placed(place, transform) : transform));
-    for (const { instance, visible } of change.visibility) now(tracer.setVisibility(instance, visible));
-    for (const { index, light } of change.lights)
-      now(tracer.setLight(index, place ? placedLight(place, light) : light));
+    for (const edit of applyPlacements(tracer, change, this.#model.place())) edit.catch(failed);
     if (change.meshes.length === 0) return undefined;
     this.#deforming = true;
-    return Promise.all(change.meshes.map(({ mesh, deformed }) => tracer.replaceMesh(mesh, deformed))).then(
+    return Promise.all(applyShapes(tracer, change)).then(
       () => this.#deformed(),
       (error: unknown) => {
         this.#deformed();
@@ -254,6 +260,22 @@ export class AnimationPlayer {
     this.#pose();
   }
 }
+
+/** Applies what of a pose needs no other meshes. */
+const applyPlacements = (
+  tracer: PathTracer,
+  { transforms, visibility, lights }: PoseChange,
+  place: readonly number[] | undefined,
+): Promise<void>[] => [
+  ...transforms.map(({ instance, transform }) =>
+    tracer.setInstanceTransform(instance, place ? placed(place, transform) : transform),
+  ),
+  ...visibility.map(({ instance, visible }) => tracer.setVisibility(instance, visible)),
+  ...lights.map(({ index, light }) => tracer.setLight(index, place ? placedLight(place, light) : light)),
+];
+
+const applyShapes = (tracer: PathTracer, { meshes }: PoseChange): Promise<void>[] =>
+  meshes.map(({ mesh, deformed }) => tracer.replaceMesh(mesh, deformed));
 
 const notFinite = (name: string, value: unknown) =>
   new ViewerError('viewer/option', `${name} is ${String(value)}; it must be a finite number.`);
@@ -287,16 +309,17 @@ export async function openPlayer(context: PlayerContext): Promise<AnimationPlaye
   const file = source && gltfSourceOf(source);
   if (file === undefined)
     throw new ViewerError('viewer/animation', 'The model was not loaded from a glTF file: it has no animations.');
-  const poser = await openAnimations(file, scene, {
-    decoders: { meshopt: meshoptDecoder, ...decoders },
-    credentials,
-  });
+  const settings = { decoders: { meshopt: meshoptDecoder, ...decoders }, credentials };
+  const poser = await openAnimations(file, scene, settings);
   if (!context.isShown()) throw abortError('another model was shown');
   engine.refit(refitting());
   return new AnimationPlayer(
     {
       place,
       edit: (change) => engine.edit('animation', change),
+      // A ground is no instance of the model.
+      reopen: (other) =>
+        openAnimations(file, { ...other, instances: other.instances.slice(0, scene.instances.length) }, settings),
       wake: () => engine.wake(),
       emit: (type, detail) => events.emit(type, detail),
       failed: (error) => void (isAbort(error) || isLoss(error) || failed(error)),

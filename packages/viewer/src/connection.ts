@@ -1,7 +1,6 @@
 import { requestDevice } from '@glanz/renderer';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import { Display } from './display';
-import { isAbort } from './aborts';
 import { destroyed, ViewerError } from './errors';
 import { DeviceLossPolicy } from './device-loss-policy';
 
@@ -13,11 +12,9 @@ export interface ConnectionEvents {
   readonly lost: (reason: string) => void;
   /** Another attempt to get one begins. */
   readonly recovering: () => void;
-  /** There is another one: what was lost with the former is to be made again. */
-  readonly back: () => Promise<void>;
-  /** That is done, so many milliseconds after the loss. */
-  readonly restored: (milliseconds: number) => void;
-  /** No other one could be had, or what was lost could not be made again. */
+  /** There is another one: what was lost with the former, at this time of `performance.now()`, is to be made again. */
+  readonly back: (lostAt: number) => void;
+  /** No other one could be had. */
   readonly failed: (error: unknown) => void;
   /** The device reports an error. */
   readonly error: (error: unknown) => void;
@@ -160,12 +157,8 @@ export class Connection {
     const device = (this.#coming = await this.#request());
     try {
       if (this.#destroyed) throw destroyed();
-      const display = await Display.create(this.#canvas, device, this.#view, () => !this.#destroyed);
-      if (this.#destroyed) {
-        display.destroy();
-        throw destroyed();
-      }
-      this.#display = display;
+      const display = (this.#display = await Display.create(this.#canvas, device, this.#view, () => !this.#destroyed));
+      if (this.#destroyed) throw destroyed();
       // What was changed while it was made.
       await display.setView(this.#view);
     } catch (error) {
@@ -205,7 +198,7 @@ export class Connection {
 
   /** A new device in place of a lost one. */
   #recover(reason: string): void {
-    const started = performance.now();
+    const lostAt = performance.now();
     const attempt = async () => {
       this.#display?.destroy();
       this.#display = undefined;
@@ -213,16 +206,17 @@ export class Connection {
       // A device that the page destroyed does not come back by waiting.
       if (reason !== 'retry') await this.#lossPolicy.next();
       await this.#reconnect();
+      // Unless that device is gone already: then another recovery has begun.
+      if (recovery !== this.#recovery) return;
       this.#recovery = undefined;
-      await this.#events.back();
-      if (!this.#destroyed) this.#events.restored(performance.now() - started);
+      this.#events.back(lostAt);
     };
     // Set before the attempt runs, for it asks.
-    this.#recovery = Promise.resolve()
+    const recovery = (this.#recovery = Promise.resolve()
       .then(attempt)
       .catch((error: unknown) => {
         this.#recovery = undefined;
-        if (!this.#destroyed && !isAbort(error)) this.#events.failed(error);
-      });
+        if (!this.#destroyed) this.#events.failed(error);
+      }));
   }
 }

@@ -147,7 +147,7 @@ class Session implements DenoiseSession {
     const pixels = tracer.width * tracer.height;
     if (!device || pixels >= this.#limit) return undefined;
     // The denoiser of the screen serves the screen's size; its image is shown until the next one.
-    const shared = tracer === this.#tracer;
+    const shared = tracer === (this.#tracer ??= tracer);
     let own: ImageDenoiser | undefined;
     try {
       const screen = await this.#on(device);

@@ -44,6 +44,8 @@ export class Engine {
   /** Samples of the image when its device was lost, and how many of them came back. */
   #lostSamples = 0;
   #keptSamples = 0;
+  /** Settles when the last rebuild after a loss has ended. */
+  #rebuilding: Promise<unknown> | undefined;
 
   /**
    * @param canvas One that has no context yet, or had an engine before.
@@ -70,13 +72,7 @@ export class Engine {
           this.#host.lost(reason);
         },
         recovering: () => this.#loop.lose(),
-        back: () => this.#rebuild(),
-        restored: (milliseconds) => {
-          const samples = this.#keptSamples;
-          const lostSamples = Math.max(0, this.#lostSamples - samples);
-          this.#lostSamples = this.#keptSamples = 0;
-          this.#host.restored(milliseconds, { samples, lostSamples });
-        },
+        back: (lostAt) => void this.#restore(lostAt),
         failed: (error) => this.#fail(error),
         error: host.error,
       },
@@ -339,12 +335,28 @@ export class Engine {
     return (await prepared).tracer;
   }
 
-  /** The scene as it was edited, on a device that came in place of a lost one. */
-  async #rebuild(): Promise<void> {
+  /** Makes what was lost with a device again on the one that there is now. */
+  async #restore(lostAt: number): Promise<void> {
+    const { device } = this;
+    await this.#rebuild();
+    if (this.#failed || device !== this.device) return;
+    const samples = this.#keptSamples;
+    const lostSamples = Math.max(0, this.#lostSamples - samples);
+    this.#lostSamples = this.#keptSamples = 0;
+    this.#host.restored(performance.now() - lostAt, { samples, lostSamples });
+  }
+
+  /** Makes the scene as it was edited on another device than before, and reports where that fails. */
+  #rebuild(): Promise<unknown> | undefined {
     const { tracer: former } = this;
     const source = this.#source;
-    // A scene that is being prepared takes the new device by itself.
-    if (former && source && !this.#preparation.running) await this.#prepare(source, {}, former);
+    // What is being prepared takes the new device by itself where its own was lost.
+    if (former && source && !this.#preparation.running)
+      // Without a device the connection has given up, and has reported it.
+      this.#rebuilding = this.#prepare(source, {}, former).catch(
+        (error: unknown) => isAbort(error) || !this.device || this.#fail(error),
+      );
+    return this.#rebuilding;
   }
 
   /** What was to replace the scene did not come: the former one stays, on the device that there is now. */
@@ -352,8 +364,7 @@ export class Engine {
     const { device, recovery } = this.#connection;
     if (this.#destroyed || !this.tracer || recovery || this.#preparation.running) return;
     if (!device) this.#failed = true;
-    else if (this.#tracerDevice !== device)
-      this.#rebuild().catch((error: unknown) => isAbort(error) || this.#fail(error));
+    else if (this.#tracerDevice !== device) void this.#rebuild();
     else this.#failed = failed;
     this.#loop.stir();
   }

@@ -3,7 +3,7 @@ import { GlanzError } from '@glanz/scene';
 /**
  * The viewer was asked for something it cannot do. Codes: `viewer/no-canvas`, `viewer/destroyed`, `viewer/no-scene`,
  * `viewer/no-model`, `viewer/environment`, `viewer/camera`, `viewer/option`, `viewer/blob`, `viewer/device-lost`,
- * `viewer/gpu`, `viewer/out-of-memory`, `viewer/denoise`, `viewer/animation`.
+ * `viewer/gpu`, `viewer/out-of-memory`, `viewer/denoise`, `viewer/animation`, `viewer/video`, `viewer/missing-package`.
  */
 export class ViewerError extends GlanzError {}
 

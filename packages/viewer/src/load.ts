@@ -2,16 +2,19 @@ import type { GltfDecoders, GltfProgress } from '@glanz/gltf';
 import { GlanzError, inSlices, type CompressedFormat, type Environment, type Scene } from '@glanz/scene';
 import { isAbort } from './aborts';
 import { ViewerError } from './errors';
+import type { ReadFile } from './load-other';
 
 /**
- * A model: an address, a file, several files or a folder of them (glTF, GLB, OBJ with MTL, STL), or a scene.
+ * A model: an address, a file, several files or a folder of them (glTF, GLB, OBJ with MTL, STL, USD), or a
+ * scene.
  * A map's keys are paths, folders separated by `/`.
  */
 export type ModelSource = string | URL | Blob | readonly File[] | FileList | ReadonlyMap<string, Blob> | Scene;
 
 /**
  * Environment. `scene`: the model's own, or else the studio; `studio`: the built-in one; `none`: black; an address or
- * a file of a Radiance HDR or OpenEXR image, or of a JPEG, PNG or WebP image, whose radiance is at most 1; or data.
+ * a file of a Radiance HDR or OpenEXR image, of an Ultra HDR JPEG, or of a JPEG, PNG or WebP image, whose radiance is at
+ * most 1; or data.
  */
 export type EnvironmentSource = 'scene' | 'studio' | 'none' | URL | Blob | Environment | (string & {});
 
@@ -34,9 +37,9 @@ export interface LoadModelOptions {
   readonly compressedFormats?: (() => Promise<readonly CompressedFormat[]>) | undefined;
 }
 
-const MODEL = /\.(glb|gltf|obj|stl)$/i;
+const MODEL = /\.(glb|gltf|obj|stl|usd[acz]?)$/i;
 /** Models that are no glTF. */
-export const OTHER = /\.(obj|stl)$/i;
+export const OTHER = /\.(obj|stl|usd[acz]?)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 
 const isScene = (source: ModelSource): source is Scene =>
@@ -53,7 +56,7 @@ function addressOf(source: string | URL, code: 'viewer/no-model' | 'viewer/envir
   try {
     return new URL(source, location.href);
   } catch (cause) {
-    throw new ViewerError(code, `"${String(source).slice(0, 200)}" is no address that can be fetched.`, { cause });
+    throw new ViewerError(code, `"${String(source).slice(0, 200)}" is not an address that can be fetched.`, { cause });
   }
 }
 /** An address without its query. */
@@ -115,7 +118,7 @@ export async function loadModel(source: ModelSource, options: LoadModelOptions =
     const names = [...files.keys()].slice(0, 3).map((path) => `"${path}"`);
     throw new ViewerError(
       'viewer/no-model',
-      `There is no .glb, .gltf, .obj or .stl among the files${names.length > 0 ? ` (${names.join(', ')}${files.size > 3 ? ', …' : ''})` : ''}.`,
+      `There is no .glb, .gltf, .obj, .stl or .usdz among the files${names.length > 0 ? ` (${names.join(', ')}${files.size > 3 ? ', …' : ''})` : ''}.`,
     );
   }
   if (!OTHER.test(model)) return readGltf({ files, entry: model }, options);
@@ -214,24 +217,8 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
   return loadGltf(source, { ...common, compressedFormats, decoders: { meshopt: meshoptDecoder, ...decoders } });
 }
 
-async function readOther(
-  name: string,
-  read: (path: string) => Promise<Uint8Array<ArrayBuffer> | undefined>,
-  signal: AbortSignal | undefined,
-): Promise<Scene> {
-  const bytes = await read(name);
-  if (!bytes)
-    throw new ViewerError(
-      'viewer/no-model',
-      `The model "${name}" could not be fetched: check the address, and that its server lets this page read it.`,
-    );
-  const { readObj, readStl } = await import('@glanz/formats');
-  if (/\.stl$/i.test(name)) return readStl(bytes, { name });
-  const { decodeImageInBrowser } = await import('./gltf');
-  return readObj(bytes, {
-    name,
-    read,
-    decodeImage: (image) => decodeImageInBrowser(image, 'application/octet-stream'),
-    ...(signal ? { signal } : {}),
-  });
+/** Reads a model that is no glTF; pages that load glTF alone do not fetch what reads it. */
+async function readOther(name: string, read: ReadFile, signal: AbortSignal | undefined): Promise<Scene> {
+  const { loadOther } = await import('./load-other');
+  return loadOther(name, read, { decoder: async () => (await import('./gltf')).decodeImageInBrowser, signal });
 }

@@ -148,7 +148,7 @@ async function screenImage(
 }
 
 /** The codes of an image, tone-mapped in slices. */
-async function codesOf(
+export async function codesOf(
   film: Float32Array,
   view: ToneMapOptions,
   alpha: 'opaque' | 'straight',

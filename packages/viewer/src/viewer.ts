@@ -7,7 +7,7 @@ import type { ControlOptions } from './controls';
 import { isAbort } from './aborts';
 import type { Denoising } from './denoise-session';
 import { Emitter, type ListenOptions } from './emitter';
-import { Engine } from './engine';
+import { Engine, type TracerCopy } from './engine';
 import { engineSettings, previewOptions } from './engine-settings';
 import { ViewerError } from './errors';
 import type { ViewerEvents, ViewerState } from './events';
@@ -180,7 +180,7 @@ export class Viewer {
    * are linear Rec.709, or CSS colours as text, which are converted from sRGB: a name, `#rgb`, `#rrggbb`, `rgb()` or
    * `hsl()`. Of a call that is refused nothing is stored.
    * @returns When the image shows it.
-   * @throws {RenderError} `renderer/material`; {ToneMapError} `tonemap/color` for what is no CSS colour; {ViewerError}
+   * @throws {RenderError} `renderer/material`; {ToneMapError} `tonemap/color` for what is not a CSS colour; {ViewerError}
    * `viewer/no-scene`.
    * @example
    * await viewer.setMaterial('seat', { base_color: 'rebeccapurple', specular_roughness: 0.2 });
@@ -535,6 +535,11 @@ export class Viewer {
   project(point: Vector): Projection | undefined {
     const { camera } = this;
     return camera && project(camera, this.#camera.aspect, point);
+  }
+
+  /** @internal What makes another tracer of the scene as it is, for `@glanz/viewer/record`. */
+  copyFor(aspect: number): TracerCopy | undefined {
+    return this.#engine.copyFor(aspect);
   }
 
   /** Frees everything, the device too. Idempotent. The canvas can serve another viewer. */

@@ -20,6 +20,7 @@ function player(duration = 2) {
   const made = new AnimationPlayer(
     {
       place: () => undefined,
+      reopen: () => Promise.reject(new Error('not for other tracers')),
       edit: async (change) => change(undefined as never),
       wake: () => heard.push('wake'),
       emit: (type, { name, ...rest }) => heard.push([type, name, ...Object.values(rest)].join(' ')),

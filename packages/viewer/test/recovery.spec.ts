@@ -70,6 +70,39 @@ test('after it gave up, load() and an explicit retry ask for a device again', as
   expect((await shot(page)).cells).toEqual(before.cells);
 });
 
+test('a GPU that is lost again while the scene is rebuilt: one report at the end, of success or of failure', async ({
+  page,
+}) => {
+  await injectFaults(page);
+  await open(page, served.origin);
+  const before = await shot(page);
+  // Each loss comes while the kernels for the device before are compiled.
+  const loseTwice = async () => {
+    await page.evaluate(() => (window.gpuFaults.holdPipelines = 'glanz generate'));
+    const compiled = () => page.evaluate(() => window.gpuFaults.count['createComputePipelineAsync'] ?? 0);
+    const former = await compiled();
+    await page.evaluate(() => window.loseGpu());
+    await expect.poll(compiled).toBeGreaterThan(former);
+    await page.evaluate(() => window.loseGpu());
+  };
+  const release = () => page.evaluate(() => (window.gpuFaults.holdPipelines = undefined));
+
+  await loseTwice();
+  await release();
+  await done(page);
+  expect(await heard(page, 'device-lost')).toHaveLength(2);
+  expect(await heard(page, 'device-restored')).toHaveLength(1);
+  expect(await heard(page, 'error')).toEqual([]);
+  expect((await shot(page)).cells).toEqual(before.cells);
+
+  await loseTwice();
+  await expect.poll(() => page.evaluate(() => window.viewer.state)).toBe('failed');
+  await release();
+  await page.waitForTimeout(500);
+  expect((await heard(page, 'error')).map(({ code }) => code)).toEqual(['viewer/device-lost']);
+  expect(await heard(page, 'device-restored')).toHaveLength(1);
+});
+
 test('an abort, a newer load and destroy() end a load at once, although the driver still compiles', async ({
   page,
 }) => {

@@ -176,3 +176,48 @@ test('an environment of 8 bits is read as sRGB; what only begins like one is ref
   [0.5029, 0, 1].forEach((value, k) => expect(result.png[2 + k]).toBeCloseTo(value, 3));
   [0.5029, 0, 1].forEach((value, k) => expect(result.jpeg[2 + k]).toBeCloseTo(value, 1));
 });
+
+test('the gain map of an Ultra HDR JPEG is applied, by XMP or ISO 21496-1: a white sun of radiance 16', async ({
+  page,
+}) => {
+  await open(page, served.origin);
+  const read = await page.evaluate(async () => {
+    const { viewer } = window;
+    /** 16 × 8 pixels, grey, with another grey on the right half. */
+    const jpeg = async (left: number, right: number) => {
+      const canvas = new OffscreenCanvas(16, 8);
+      const context = canvas.getContext('2d')!;
+      context.fillStyle = `rgb(${left} ${left} ${left})`;
+      context.fillRect(0, 0, 8, 8);
+      context.fillStyle = `rgb(${right} ${right} ${right})`;
+      context.fillRect(8, 0, 8, 8);
+      const blob = await canvas.convertToBlob({ type: 'image/jpeg', quality: 1 });
+      return new Uint8Array(await blob.arrayBuffer());
+    };
+    const map = await jpeg(0, 255);
+    const xmp = new TextEncoder().encode(
+      'http://ns.adobe.com/xap/1.0/\0<rdf:Description xmlns:hdrgm="http://ns.adobe.com/hdr-gain-map/1.0/" hdrgm:GainMapMax="4"' +
+        ' hdrgm:OffsetSDR="0" hdrgm:OffsetHDR="0"/>',
+    );
+    // ISO 21496-1: versions, flags, and rational numbers: headrooms 0 and 4, gains of 0 to 4 stops, gamma 1, no offsets.
+    const numbers = [0, 1, 4, 1, 0, 1, 4, 1, 1, 1, 0, 1, 0, 1].flatMap((value) => [0, 0, 0, value]);
+    const name = new TextEncoder().encode('urn:iso:std:iso:ts:21496:-1\0');
+    const iso = Uint8Array.of(...name, 0, 0, 0, 0, 64, ...numbers);
+    const base = await jpeg(188, 255);
+    const environment = async (marker: number, segment: Uint8Array<ArrayBuffer>) => {
+      const length = segment.length + 2;
+      const head = Uint8Array.of(0xff, 0xd8, 0xff, marker, length >> 8, length & 255);
+      await viewer.setEnvironment(new Blob([base, head, segment, map.subarray(2)]));
+      const { data } = viewer.scene!.environment as { data: Float32Array };
+      return [data[3 * 18], data[3 * 29]] as [number, number];
+    };
+    const broken = await environment(0xe2, iso.slice(0, 50)).catch((error: { code: string }) => error.code);
+    return { xmp: await environment(0xe1, xmp), iso: await environment(0xe2, iso), broken };
+  });
+  expect(read.broken).toBe('image/truncated');
+  // 188 is 0.5029 of linear light; the map adds nothing on the left and four stops on the right.
+  for (const [sky, sun] of [read.xmp, read.iso]) {
+    expect(sky).toBeCloseTo(0.5029, 1);
+    expect(sun).toBeCloseTo(16, 0);
+  }
+});
