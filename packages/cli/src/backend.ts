@@ -1,6 +1,7 @@
 import type { FilmLayer, FilmState, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
 import type { FilmSource } from '@glanz/renderer/film';
 import type { DenoiseQuality } from '@glanz/denoise/film';
+import type { ScenePoser } from '@glanz/gltf/animation';
 import type { CompressedFormat, Scene } from '@glanz/scene';
 import type { PoseOptions } from './options';
 import type { ImageDenoiser } from './denoise';
@@ -13,6 +14,11 @@ export type Tracer = Pick<
   | 'reset'
   | 'setCamera'
   | 'setVariant'
+  | 'setInstanceTransform'
+  | 'setVisibility'
+  | 'setLight'
+  | 'replaceMesh'
+  | 'accumulates'
   | 'readLightGroup'
   | 'lightGroups'
   | 'saveFilm'
@@ -65,6 +71,17 @@ export interface Backend {
     pose?: PoseOptions,
     formats?: () => Promise<readonly CompressedFormat[]>,
   ): Promise<Scene>;
+  /**
+   * Opens the animations of a glTF file whose scene was loaded.
+   *
+   * @param pose Which scene of the file.
+   */
+  openAnimations(
+    file: string,
+    scene: Scene,
+    signal: AbortSignal,
+    pose?: Pick<PoseOptions, 'scene'>,
+  ): Promise<ScenePoser>;
   compressedFormats(device: GPUDevice): Promise<readonly CompressedFormat[]>;
   /**
    * A new device of a new adapter.
@@ -85,12 +102,16 @@ export type { DenoiseQuality, FilmLayer, FilmSource, FilmState, ImageDenoiser, P
 export function nodeBackend(): Backend {
   return {
     async loadModel(file, signal, pose = {}, compressedFormats = undefined) {
-      if (/\.(obj|stl)$/i.test(file)) {
+      if (/\.(obj|stl|usd[acz]?)$/i.test(file)) {
         const { loadModelFile } = await import('@glanz/formats/node');
         return loadModelFile(file, { signal });
       }
       const { loadGltfFile } = await import('@glanz/gltf/node');
       return loadGltfFile(file, { signal, compressedFormats, ...pose });
+    },
+    async openAnimations(file, scene, signal, pose = {}) {
+      const { openAnimationsFile } = await import('@glanz/gltf/node');
+      return openAnimationsFile(file, scene, { signal, ...pose });
     },
     async compressedFormats(device) {
       return (await import('@glanz/renderer')).compressedFormats(device);

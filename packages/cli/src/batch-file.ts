@@ -166,7 +166,7 @@ export async function openBatch(
     try {
       json = JSON.parse(text);
     } catch (cause) {
-      throw new CliError('cli/batch', `${file}: it is no JSON: ${(cause as Error).message.split('\n')[0]}.`, {
+      throw new CliError('cli/batch', `${file}: it is not valid JSON: ${(cause as Error).message.split('\n')[0]}.`, {
         cause,
         location: { file },
       });

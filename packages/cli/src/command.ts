@@ -4,6 +4,7 @@ import { parseFarm } from './commands/farm/parse';
 import { parseInfo } from './commands/info';
 import { parseMerge } from './commands/merge';
 import { parseServe } from './commands/serve';
+import { parseVideo } from './commands/video';
 import { checkPlaceholders } from './output/placeholders';
 import {
   closest,
@@ -26,6 +27,7 @@ export type Command =
   | ReturnType<typeof parseServe>
   | ReturnType<typeof parseMerge>
   | ReturnType<typeof parseFarm>
+  | ReturnType<typeof parseVideo>
   | RenderCommand;
 
 /**
@@ -43,6 +45,7 @@ export function parseCommand(argv: readonly string[]): Command {
   if (first === 'bench') return parseBench(argv.slice(1));
   if (first === 'serve') return parseServe(argv.slice(1));
   if (first === 'merge') return parseMerge(argv.slice(1));
+  if (first === 'video') return parseVideo(argv.slice(1));
   if (first === 'farm') return parseFarm(argv.slice(1));
   const { values: given, positionals } = parseOptions(argv);
   const warnings: string[] = [];
@@ -55,7 +58,7 @@ export function parseCommand(argv: readonly string[]): Command {
     if (argv.length === 0) return { kind: 'help', topic: undefined };
     throw usage('No command given. Use glanz render MODEL; see glanz --help.');
   }
-  const commands = ['render', 'convert', 'info', 'bench', 'serve', 'merge', 'farm'];
+  const commands = ['render', 'convert', 'info', 'bench', 'serve', 'merge', 'farm', 'video'];
   if (command !== 'render') {
     if (commands.includes(command)) throw usage(`"${command}" comes first: glanz ${command} …; see glanz --help.`);
     const guess = closest(command, commands);

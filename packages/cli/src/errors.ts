@@ -5,7 +5,8 @@ import { visible } from './visible';
  * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
  * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (a batch
  * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be merged), `cli/gpu-isolation` (GPUs of one name that cannot be distinguished), `cli/gpu-lost` (a GPU that is gone for
- * good), `cli/farm` (a job that this version cannot do), `cli/missing-package` (an optional package is needed), `cli/port` (a port that cannot be used).
+ * good), `cli/farm` (a job that this version cannot do), `cli/missing-package` (an optional package is needed), `cli/ffmpeg` (a
+ * film that ffmpeg cannot encode, or ffmpeg is missing), `cli/port` (a port that cannot be used).
  */
 export class CliError extends GlanzError {}
 

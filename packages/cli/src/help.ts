@@ -47,6 +47,39 @@ const COMMANDS = {
   at once, so merge many large ones group by group.
   -o, --output FILE     .png, .hdr, .exr (image and variance), or .film again.
 `,
+  video: `VIDEOS
+  glanz video MODEL [-o VIDEO.mp4] [--degrees D] [--animation NAME]
+              [--seconds S] [--fps N] [--shutter F] [--resume] [...]
+
+  Renders the frames of a video, and has ffmpeg encode them. The other options
+  are those of glanz render, which hold for each frame: size, samples, light,
+  denoising, and so on.
+  -o, --output FILE     .mp4, .mov, .webm or .mkv; or numbered images without
+                        ffmpeg: 'frames/{frame}.png', or .exr, .hdr. Default:
+                        the model's name with .mp4.
+      --degrees D       The camera goes D degrees around the model, at the same
+                        distance; negative: to the left. Default 360, unless
+                        --animation or --camera is given.
+      --elevation D     ... from D degrees above. Default 20.
+      --animation NAME  Plays an animation of a glTF model, by name or number;
+                        again from its start where the video is longer.
+      --seconds S       Default: the length of the animation, or 4.
+      --fps N           Frames a second. Default 30.
+      --shutter F       Motion blur: share of the time between two frames in
+                        which the shutter is open, 0 to 1. 0.5 is a shutter of
+                        180 degrees. Default 0: none.
+      --shutter-times N Pose the model at N times of an open shutter. Default:
+                        for each sample. Fewer cost less for deformed meshes.
+      --codec NAME      h264, h265, vp9 or av1. Default: h264, or vp9 for .webm.
+      --crf N           Constant rate factor: smaller is better and larger.
+                        Default 18 for h264, 22 h265, 24 vp9, 28 av1.
+      --frames DIR      Keep the frames as PNG files in DIR. Default: beside the
+                        video until it is encoded.
+      --ffmpeg PATH     Default: the ffmpeg in PATH.
+      --resume          Leave out frames that an earlier run has finished.
+  Without ffmpeg, or an encoder for the video's codec, the command ends before
+  anything is rendered.
+`,
   farm: `MANY IMAGES ON MANY MACHINES
   glanz farm submit BATCH --redis URL [--split N] [...]
   glanz farm work --redis URL [--gpu NAME]... [--until-empty]
@@ -128,6 +161,7 @@ SYNOPSIS
   glanz render MODEL --variant all --view front --view iso [...]
   glanz render --batch FILE [--resume] [--gpu NAME]... [...]
   glanz convert PART [-o FILE.glb] [--lod N] [--materials FILE] [--strip] [...]
+  glanz video MODEL [-o VIDEO.mp4] [--degrees D] [--animation NAME] [...]
   glanz merge A.film B.film [...] -o FILE
   glanz farm submit BATCH | work | status [--redis URL] [...]
   glanz info MODEL | bench [MODEL] | serve
@@ -135,11 +169,11 @@ SYNOPSIS
   glanz help [COMMAND] | --help | --version
 
 DESCRIPTION
-  Renders a glTF 2.0 model (.glb or .gltf), an .obj with its .mtl, or an .stl,
-  and writes the image in each format asked for. A model without a camera is
-  framed from the front right, a little from above; without --env it stands in
-  a neutral photo studio. Uses the best GPU there is, or the processor if there
-  is none.
+  Renders a glTF 2.0 model (.glb or .gltf), an .obj with its .mtl, an .stl, or
+  USD (.usdz, .usdc, .usda), and writes the image in each format asked for. A
+  model without a camera is framed from the front right, a little from above;
+  without --env it stands in a neutral photo studio. Uses the best GPU there is,
+  or the processor if there is none.
 
   Progress goes to stderr; stdout has what --json, info and bench print. Ctrl-C
   writes what has been accumulated so far; a second Ctrl-C ends at once. When
@@ -250,6 +284,7 @@ ${COMMANDS.convert}
 ${COMMANDS.info}
 ${COMMANDS.bench}
 ${COMMANDS.merge}
+${COMMANDS.video}
 ${COMMANDS.farm}
 ${COMMANDS.serve}
 MACHINE
@@ -277,6 +312,7 @@ EXAMPLES
   glanz render shoe.glb --variant all --view front --view iso --view 30,20 \\
     -o 'out/{variant}-{view}.png' --resume
   glanz render ring.glb --turntable 36 --elevation 15 -o 'ring/{view}.png'
+  glanz video ring.glb --seconds 6 --shutter 0.5 -o 'ring/{frame}.png'
   glanz render --batch catalogue.csv --samples 512 --resume --json
   glanz info shoe.glb
   glanz convert part.step -o part.glb --lod 3 --materials map.json --strip

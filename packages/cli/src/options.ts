@@ -245,7 +245,8 @@ export function parseOptionsOf<T extends NonNullable<ParseArgsConfig['options']>
   }
 }
 
-function number(
+/** A number that an option gives. @throws {CliError} `cli/usage` */
+export function number(
   name: string,
   text: string | undefined,
   fallback: number,
@@ -271,7 +272,7 @@ function parseSize(text: string): [number, number] {
 }
 
 function defaultOutput(model: string): string {
-  const base = (model.split(/[\\/]/).pop() as string).replace(/\.(glb|gltf|obj|stl)$/i, '');
+  const base = (model.split(/[\\/]/).pop() as string).replace(/\.(glb|gltf|obj|stl|usd[acz]?)$/i, '');
   return `${base || 'image'}.png`;
 }
 

@@ -48,6 +48,12 @@ export async function runCli(
     if (command.kind === 'farm') return await (await import('./commands/farm/run')).farmCommand(command, io, backend);
     if (command.kind === 'merge') return await mergeCommand(command, io, backend);
     if (command.kind === 'list-gpus') return await listGpusCommand(command, io, backend);
+    if (command.kind === 'video') {
+      const { videoCommand } = await import('./commands/video');
+      const { result, exitCode } = await videoCommand(command, io, backend, new ProgressReporter(io, command.quiet));
+      if (json && result) io.stdout(jsonLine(result));
+      return exitCode;
+    }
     const { result, exitCode } = await renderCommand(command, io, backend, new ProgressReporter(io, command.quiet));
     if (json)
       io.stdout(

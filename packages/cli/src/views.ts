@@ -15,9 +15,12 @@ export type View =
   | {
       readonly kind: 'turntable';
       readonly name: string;
+      /** From 0; may lie between two whole numbers. */
       readonly step: number;
       readonly count: number;
       readonly elevation: number;
+      /** Degrees that all steps go around. Default 360. */
+      readonly degrees?: number;
     };
 
 /** Views with names: azimuth and elevation in degrees. */
@@ -89,21 +92,34 @@ export async function cameraOf(view: View, scene: Scene, aspect: number, cwd: st
   return turntableCamera(view, scene, aspect);
 }
 
-/**
- * The camera of a step: it looks at the middle of the scene from the largest distance that any step needs, so that
- * nothing grows or shrinks between steps.
- */
-function turntableCamera(
-  { name, step, count, elevation }: View & { kind: 'turntable' },
-  scene: Scene,
-  aspect: number,
-): PerspectiveCamera {
+type Turntable = View & { readonly kind: 'turntable' };
+
+/** A camera as it is framed, and how far away it stands. */
+interface Stand {
+  readonly framed: PerspectiveCamera;
+  readonly center: Vector;
+  readonly distance: number;
+}
+
+/** What the steps of a turntable share, which each scene's vertices are read for. */
+const stands = new WeakMap<Scene, Map<string, Stand>>();
+
+const azimuthOf = (step: number, { count, degrees = 360 }: Turntable) => (degrees * step) / count;
+
+/** The largest distance from the middle of the scene that any step needs. */
+function standOf(view: Turntable, scene: Scene, aspect: number): Stand {
+  const { count, elevation, degrees } = view;
+  const known = stands.get(scene) ?? new Map<string, Stand>();
+  stands.set(scene, known);
+  const key = [count, elevation, degrees, aspect].join();
+  const found = known.get(key);
+  if (found) return found;
   const { min, max } = sceneBounds(scene);
-  const center = lerp([0, 0, 0], min, max, 0.5);
+  const center: Vector = lerp([0, 0, 0], min, max, 0.5);
   let distance = 0;
   let framed: PerspectiveCamera | undefined;
   for (let i = 0; i < count; i++) {
-    framed = frameCamera(scene, { aspect, direction: directionOf((360 * i) / count, elevation) });
+    framed = frameCamera(scene, { aspect, direction: directionOf(azimuthOf(i, view), elevation) });
     const { transform, yfov } = framed;
     const m = Array.from(transform);
     const from = subtract([0, 0, 0], m.slice(12), center);
@@ -112,11 +128,22 @@ function turntableCamera(
     const ty = Math.tan(yfov / 2) * (1 - 0.06);
     distance = Math.max(distance, along(2) + Math.max(Math.abs(along(0)) / (ty * aspect), Math.abs(along(1)) / ty));
   }
-  const direction = directionOf((360 * step) / count, elevation);
+  const stand = { framed: framed as PerspectiveCamera, center, distance };
+  known.set(key, stand);
+  return stand;
+}
+
+/**
+ * The camera of a step: it looks at the middle of the scene from the largest distance that any step needs, so that
+ * nothing grows or shrinks between steps.
+ */
+function turntableCamera(view: Turntable, scene: Scene, aspect: number): PerspectiveCamera {
+  const { framed, center, distance } = standOf(view, scene, aspect);
+  const direction = directionOf(azimuthOf(view.step, view), view.elevation);
   const eye = scaleAndAdd([0, 0, 0], center, direction, distance);
   return {
-    ...(framed as PerspectiveCamera),
-    name,
+    ...framed,
+    name: view.name,
     transform: lookAt(eye, center, [0, 1, 0]),
     focus_distance: distance,
   };

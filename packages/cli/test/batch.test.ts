@@ -181,7 +181,7 @@ describe('batch files', () => {
   });
 
   it.each([
-    ['b.json', '{', 'it is no JSON'],
+    ['b.json', '{', 'it is not valid JSON'],
     ['b.json', '[]', 'there is no image in it'],
     ['b.json', '{"images": [3]}', 'it must be a list of objects'],
     ['b.json', '[{"model":"m.glb","colour":"red"}]', 'image 1: "colour" is unknown'],

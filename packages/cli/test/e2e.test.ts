@@ -6,14 +6,17 @@ import { describe, expect, it } from 'vitest';
 import { runCli } from '../src/index';
 import { fakeIo, temporaryFolder, type FakeIo } from './fakes';
 import { makeGlb } from './glb';
+import { keptBackend } from './kept-gpu';
 
 /** Made when packages are built. */
 const WEIGHTS = join(import.meta.dirname, '../../denoise-weights/weights/rt_hdr_alb_nrm_small.tza');
 
+const backend = keptBackend();
+
 /** The real loader and the real renderer, on the software GPU. */
 async function glanz(argv: readonly string[], cwd: string, io: FakeIo = fakeIo(cwd)) {
   io.time = 0;
-  const code = await runCli(['render', ...argv, '--gpu', 'software'], io);
+  const code = await runCli(['render', ...argv, '--gpu', 'software'], io, backend);
   return { code, out: io.out.join(''), err: io.err.join('') };
 }
 
@@ -123,7 +126,7 @@ describe('a red square', () => {
       writeFileSync(join(folder, 'b.json'), JSON.stringify([row]));
       const io = fakeIo(folder);
       const argv = ['farm', 'task', 'b.json', '--split', '16', '--store', store, '--gpu', 'software'];
-      expect(await runCli(argv, io), io.err.join('')).toBe(0);
+      expect(await runCli(argv, io, backend), io.err.join('')).toBe(0);
     };
     const pixels = (name: string) => sharp(join(folder, name)).raw().toBuffer();
     await task({ ...image, output: 'split.png' }, 'a');

@@ -2,7 +2,7 @@ import { mergeFilmSources, readFilmState } from '@glanz/renderer/film';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { createScene, GlanzError, type Scene } from '@glanz/scene';
+import { createScene, GlanzError, type Camera, type Scene } from '@glanz/scene';
 import { onTestFinished } from 'vitest';
 import type { Backend, FilmState, PathTracerOptions, RenderStatistics, Tracer } from '../src/backend';
 import { runCli, type CliIo, type Interrupt } from '../src/index';
@@ -125,6 +125,9 @@ export interface FakeOptions {
     readonly color: readonly [number, number, number];
   }[];
   readonly loadModel?: Backend['loadModel'];
+  readonly openAnimations?: Backend['openAnimations'];
+  /** Called when a tracer's camera is set, with the samples that the film has. */
+  readonly onCamera?: (camera: Camera, samples: number) => void;
   readonly openGpu?: Backend['openGpu'];
   readonly listGpus?: Backend['listGpus'];
 }
@@ -142,7 +145,12 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
       Float32Array.from({ length: width * height * 4 }, (_, i) =>
         f((i >> 2) % width, Math.floor((i >> 2) / width), i & 3),
       );
+    const edited = (what: string, to: unknown) => {
+      edits.push([what, to]);
+      if (!tracer.accumulates) samples = 0;
+    };
     const tracer = {
+      accumulates: false,
       get samples() {
         return samples;
       },
@@ -189,14 +197,14 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         edits.push(['film', samples]);
       },
       async setCamera(camera: unknown) {
-        edits.push(['camera', (camera as { name?: string }).name]);
-        samples = 0;
+        fake.onCamera?.(camera as Camera, samples);
+        edited('camera', (camera as { name?: string }).name);
       },
       async setVariant(variant: unknown) {
         fake.onEdit?.('variant', variant, device as FakeDevice);
-        edits.push(['variant', variant]);
-        samples = 0;
+        edited('variant', variant);
       },
+      setInstanceTransform: async (instance: number, transform: unknown) => edited(`instance ${instance}`, transform),
       lightGroups: fake.lightGroups ?? [{ name: 'rest', intensity: 1, color: [1, 1, 1] }],
       async readLightGroup(name: string) {
         return interleaved((_x, _y, k) => (k === 3 ? 1 : name.length));
@@ -211,6 +219,11 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
     edits,
     backend: {
       loadModel: fake.loadModel ?? (async () => fake.scene ?? triangleScene()),
+      openAnimations:
+        fake.openAnimations ??
+        (async () => {
+          throw new Error('no animations');
+        }),
       compressedFormats: async () => [],
       openGpu:
         fake.openGpu ??

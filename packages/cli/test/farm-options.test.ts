@@ -1,5 +1,6 @@
-import { utimesSync, writeFileSync } from 'node:fs';
+import { mkdirSync, utimesSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { describe, expect, it } from 'vitest';
 import type { BlasCache } from '@glanz/bvh/cache';
 import { farmRenderer } from '../src/farm/job-renderer';
@@ -121,6 +122,25 @@ describe('the files of a model', () => {
     });
     const { files } = await modelFiles(join(folder, 'x.obj'));
     expect(files.map(({ name }) => name)).toEqual(['model.obj', 'my mat.mtl', 'wood.png']);
+  });
+
+  it('USD with the images beside it, an archive alone, and what is no USD alone', async () => {
+    const shader = 'def Shader "A" { asset inputs:file = @./maps/wood.png@\n asset inputs:more = @gone.png@ }';
+    const folder = temporaryFolder({ 'x.usda': `#usda 1.0\n${shader}\n`, 'broken.usdc': 'nothing' });
+    mkdirSync(join(folder, 'maps'));
+    writeFileSync(join(folder, 'maps/wood.png'), 'x');
+    expect(await modelFiles(join(folder, 'x.usda'))).toEqual({
+      main: 'model.usda',
+      files: [
+        { name: 'model.usda', path: join(folder, 'x.usda') },
+        { name: 'maps/wood.png', path: join(folder, 'maps/wood.png') },
+      ],
+    });
+    expect((await modelFiles(join(folder, 'broken.usdc'))).files).toHaveLength(1);
+    const test = new URL('../../formats/test/usd/', import.meta.url);
+    const named = async (file: string) =>
+      (await modelFiles(fileURLToPath(new URL(file, test)))).files.map(({ name }) => name);
+    expect(await named('model.usdz')).toEqual(['model.usdz']);
   });
 });
 

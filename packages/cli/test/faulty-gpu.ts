@@ -1,5 +1,6 @@
 import type { FilmLayer } from '../src/backend';
-import { nodeBackend, type Backend, type FilmState, type OpenedGpu } from '../src/index';
+import type { Backend, FilmState, OpenedGpu } from '../src/index';
+import { keptBackend, loseGpu } from './kept-gpu';
 
 /** A real device under test. */
 export interface FaultyDevice {
@@ -34,7 +35,7 @@ export function faultyBackend({ onSubmit, onSave, onCopying, onRead, onOpen, out
   readonly backend: Backend;
   readonly devices: FaultyDevice[];
 } {
-  const real = nodeBackend();
+  const real = keptBackend();
   const devices: FaultyDevice[] = [];
   const backend: Backend = {
     ...real,
@@ -42,26 +43,21 @@ export function faultyBackend({ onSubmit, onSave, onCopying, onRead, onOpen, out
       onOpen?.(devices.length, name);
       const opened = await real.openGpu('software', onError);
       const { device } = opened;
-      let fire: (info: GPUDeviceLostInfo) => void = () => undefined;
-      const injected = new Promise<GPUDeviceLostInfo>((done) => (fire = done));
-      Object.defineProperty(device, 'lost', { value: Promise.race([injected, device.lost]) });
       const faulty: FaultyDevice = {
         device,
         index: devices.length,
         name,
         submits: 0,
-        lose() {
-          fire({ reason: 'unknown', message: 'injected loss' } as GPUDeviceLostInfo);
-          device.destroy();
-        },
+        lose: () => loseGpu(device),
       };
       devices.push(faulty);
-      const create = device.createBuffer.bind(device);
+      // Commands before may have replaced these.
+      const create = GPUDevice.prototype.createBuffer.bind(device);
       // Nothing has so much: the device reports an error and gives a buffer that cannot be used.
       device.createBuffer = (descriptor) =>
         create(outOfMemory?.test(descriptor.label ?? '') ? { ...descriptor, size: 2 ** 50 } : descriptor);
       const { queue } = device;
-      const submit = queue.submit.bind(queue);
+      const submit = GPUQueue.prototype.submit.bind(queue);
       queue.submit = (buffers) => {
         faulty.submits++;
         onSubmit?.(faulty);
@@ -72,7 +68,7 @@ export function faultyBackend({ onSubmit, onSave, onCopying, onRead, onOpen, out
     async createTracer(device, scene, options) {
       const tracer = await real.createTracer(device, scene, options);
       const save = tracer.saveFilm.bind(tracer);
-      const faulty = devices.find((one) => one.device === device) as FaultyDevice;
+      const faulty = devices.findLast((one) => one.device === device) as FaultyDevice;
       const read = tracer.read.bind(tracer) as (layer: FilmLayer) => Promise<Float32Array<ArrayBuffer>>;
       tracer.read = ((layer: FilmLayer) => {
         onRead?.(faulty, layer);

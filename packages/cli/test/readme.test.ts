@@ -14,20 +14,18 @@ function words(line: string): string[] {
   );
 }
 
-const fromReadme = [.../```sh\n([\s\S]+?)```/.exec(README)![1]!.matchAll(/^(?:npx @glanz\/cli|glanz) (.+)$/gm)].map(
-  (match) => match[1]!,
-);
-const fromHelp = [
-  ...HELP.slice(HELP.indexOf('EXAMPLES'))
-    .replace(/\\\n\s*/g, '')
-    .matchAll(/^ {2}glanz (.+)$/gm),
-].map((match) => match[1]!);
+/** Commands of a text, each of which a backslash may continue on the next line. */
+const commands = (text: string, pattern: RegExp) =>
+  [...text.replace(/\\\n\s*/g, '').matchAll(pattern)].map((match) => match[1]!);
+
+const fromReadme = commands(/```sh\n([\s\S]+?)```/.exec(README)![1]!, /^(?:npx @glanz\/cli|glanz) (.+)$/gm);
+const fromHelp = commands(HELP.slice(HELP.indexOf('EXAMPLES')), /^ {2}glanz (.+)$/gm);
 
 describe('every command line that the documentation shows can be typed', () => {
-  it('and they are there', () => expect([fromReadme.length, fromHelp.length]).toEqual([7, 10]));
+  it('and they are there', () => expect([fromReadme.length, fromHelp.length]).toEqual([8, 11]));
   it.each([...fromReadme, ...fromHelp])('glanz %s', async (line) => {
     const command = parseCommand(words(line));
-    expect(['render', 'convert', 'info', 'bench', 'serve', 'list-gpus']).toContain(command.kind);
+    expect(['render', 'convert', 'info', 'bench', 'serve', 'video', 'list-gpus']).toContain(command.kind);
     if (command.kind !== 'render') return;
     const cwd = temporaryFolder({
       [command.options?.model ?? 'shoe.glb']: '',

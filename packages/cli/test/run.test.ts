@@ -33,6 +33,7 @@ describe('help and version', () => {
       'max-bounces',
       'clamp-indirect',
       'regularization',
+      'shadow-softness',
       'no-caustics',
       'back-face-culling',
       'exposure',

@@ -47,7 +47,7 @@ async function refuseFilled(folder: string): Promise<void> {
     entries = await readdir(folder);
   } catch (cause) {
     if ((cause as NodeJS.ErrnoException).code === 'ENOENT') return;
-    throw new CreateError('create-glanz/folder', `${folder} is no folder that can be read.`, { cause });
+    throw new CreateError('create-glanz/folder', `${folder} is not a folder that can be read.`, { cause });
   }
   const [first] = entries.filter((entry) => entry !== '.git');
   if (first !== undefined)

@@ -52,6 +52,11 @@ async function run(argv: readonly string[], answers?: readonly string[], userAge
   return { code, cwd, printed: printed.join('\n'), errors: errors.join('\n'), asked };
 }
 
+/** The packages that changesets keeps at the version of this one. */
+const together = (
+  JSON.parse(readFileSync(join(home, '../../.changeset/config.json'), 'utf8')) as { fixed: string[][] }
+).fixed.find((group) => group.includes('create-glanz'));
+
 interface Manifest {
   readonly name: string;
   readonly scripts: Readonly<Record<string, string>>;
@@ -79,6 +84,8 @@ describe.each(TEMPLATES)('$name', ({ name: template }) => {
     const ours = Object.entries(declared).filter(([name]) => name.startsWith('@glanz/'));
     expect(ours.length).toBeGreaterThan(0);
     for (const [, range] of ours) expect(range).toBe(`^${version}`);
+    // The version is that of create-glanz, which has to be that of each package here.
+    expect(together).toEqual(expect.arrayContaining(ours.map(([name]) => name)));
   });
 
   it('leaves no placeholder, and has what npm would drop', async () => {

@@ -80,10 +80,11 @@ export async function mergeCommand(
   for (const path of paths) await checkInput(path, io.cwd, 'the film', Infinity);
   for (const { path } of outputs) await checkWritable(path, io.cwd);
   const codec = () => backend.filmCodec();
-  const { film, settings } = await readFilms(paths, io.cwd, backend);
+  const merged = await readFilms(paths, io.cwd, backend);
+  const { film, settings } = merged;
   const [first] = film.ranges[0] as readonly [number, number];
   const transparent = settings['--transparent'] === 'true' || settings['--background'] === 'transparent';
-  const image = await imageOfFilm(film, outputs, backend);
+  const image = await imageOfFilm(merged, outputs, backend);
   const files: WrittenFile[] = [];
   for (const target of outputs) {
     if (isImage(target)) files.push(await writeImage(image, target, { ...display, transparent }, io.cwd));

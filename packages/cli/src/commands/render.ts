@@ -32,18 +32,7 @@ export async function renderCommand(
   backend: Backend,
   progress: ProgressReporter,
 ): Promise<RenderOutcome> {
-  const abort = new AbortController();
-  const run: Run = { io, backend, progress, signal: abort.signal, interrupted: null };
-  const stopListening = io.onInterrupt((signal) => {
-    run.interrupted = signal;
-    progress.line(
-      signal === 'SIGINT'
-        ? `stopping${run.many ? '' : ': writing what there is'} (Ctrl-C again to end at once)`
-        : `stopping${run.many ? '' : ': writing what there is'}`,
-    );
-    abort.abort();
-  });
-  try {
+  return interruptible(io, backend, progress, async (run) => {
     const loader = new SceneLoader(backend, io.cwd);
     const warned = new Set<string>();
     const warn = (text: string) => {
@@ -91,6 +80,29 @@ export async function renderCommand(
     return run.many
       ? await renderMany(shots, { ...command, gpus }, loader, run)
       : await renderOne(shots[0] as Shot, { ...command, gpus }, loader, run);
+  });
+}
+
+/** Runs what can be ended by Ctrl-C or a signal, and says what the process ends with. */
+export async function interruptible<Result>(
+  io: CliIo,
+  backend: Backend,
+  progress: ProgressReporter,
+  work: (run: Run) => Promise<{ readonly result: Result | undefined; readonly exitCode: number }>,
+): Promise<{ readonly result: Result | undefined; readonly exitCode: number }> {
+  const abort = new AbortController();
+  const run: Run = { io, backend, progress, signal: abort.signal, interrupted: null };
+  const stopListening = io.onInterrupt((signal) => {
+    run.interrupted = signal;
+    progress.line(
+      signal === 'SIGINT'
+        ? `stopping${run.many ? '' : ': writing what there is'} (Ctrl-C again to end at once)`
+        : `stopping${run.many ? '' : ': writing what there is'}`,
+    );
+    abort.abort();
+  });
+  try {
+    return await work(run);
   } catch (error) {
     // An abort that a stage answered by throwing is the user's wish, not a fault.
     if (run.interrupted !== null && abort.signal.aborted && (error as Error | undefined)?.name === 'AbortError') {
@@ -104,10 +116,10 @@ export async function renderCommand(
   }
 }
 
-const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : EXIT_OF_INTERRUPT[interrupted]);
+export const exitOf = ({ interrupted }: Run) => (interrupted === null ? EXIT.ok : EXIT_OF_INTERRUPT[interrupted]);
 
 /** The GPUs' names, all of them for `--gpu all`; in this process, GPUs of one name cannot be distinguished. */
-async function gpusOf({ gpus }: RenderCommand, backend: Backend): Promise<string[]> {
+export async function gpusOf({ gpus }: Pick<RenderCommand, 'gpus'>, backend: Backend): Promise<string[]> {
   if (gpus.length === 0) return [];
   const chosen = await chooseGpus(gpus, backend);
   const hidden = chosen.find((gpu) => gpu.hidden.length > 0);
@@ -147,12 +159,12 @@ async function renderOne(shot: Shot, { gpus }: RenderCommand, loader: SceneLoade
 }
 
 /** Each GPU takes the next image when it is done with one. What fails is reported, and the others continue. */
-async function renderMany(
+export async function renderMany(
   shots: readonly Shot[],
-  { gpus, resume }: RenderCommand,
+  { gpus, resume }: Pick<RenderCommand, 'gpus' | 'resume'>,
   loader: SceneLoader,
   run: Run,
-): Promise<RenderOutcome> {
+): Promise<{ readonly result: BatchResult; readonly exitCode: number }> {
   const { io, progress } = run;
   const start = io.now();
   const journal = new Journal(io.cwd);

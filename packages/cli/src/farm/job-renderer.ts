@@ -9,7 +9,7 @@ import { writeImage, isImage } from '../output/write';
 import { ProgressReporter, type SampleProgress } from '../progress';
 import { writeFilmFile } from '../render/film-file';
 import { GpuWorker } from '../render/gpu-worker';
-import { imageOfFilm, readFilms, SAMPLES_FROM } from '../render/merged-films';
+import { imageOfFilm, readFilms, SAMPLES_FROM, type MergedFilms } from '../render/merged-films';
 import { SceneLoader } from '../render/scene';
 import type { Shot } from '../render/shots';
 import { version } from '../version';
@@ -116,17 +116,14 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     },
   };
 
-  async function readParts(parts: readonly string[], store: FarmStore): ReturnType<typeof readFilms> {
+  async function readParts(parts: readonly string[], store: FarmStore): Promise<MergedFilms> {
     const paths = await Promise.all(parts.map((id) => store.resultFile(id, outputName(0, { format: 'film' }))));
     return readFilms(paths, io.cwd, backend);
   }
 
-  async function writeMerged(
-    { film, settings }: Awaited<ReturnType<typeof readFilms>>,
-    { options, outputs }: Shot,
-    parts: number,
-  ) {
-    const image = outputs.some(isImage) ? await imageOfFilm(film, outputs, backend) : undefined;
+  async function writeMerged(merged: MergedFilms, { options, outputs }: Shot, parts: number) {
+    const { film, settings } = merged;
+    const image = outputs.some(isImage) ? await imageOfFilm(merged, outputs, backend) : undefined;
     const display = { ...options, transparent: options.settings.background === 'transparent' };
     const codec = () => backend.filmCodec();
     for (const target of outputs) {

@@ -48,6 +48,18 @@ function* namesAfter(text: string, keyword: RegExp): Generator<string> {
   }
 }
 
+/** The files that a USD file names; none where it cannot be read: loading it says what is wrong. */
+async function usdNames(path: string): Promise<string[]> {
+  const { FormatError } = await import('@glanz/formats');
+  const { usdFiles } = await import('@glanz/formats/usd');
+  try {
+    return usdFiles(new Uint8Array(await readFile(path)), basename(path));
+  } catch (error) {
+    if (error instanceof FormatError) return [];
+    throw error;
+  }
+}
+
 /**
  * The files that a model consists of, the model itself first, under the name `model` with its ending: a bundle's
  * identity does not depend on what the file is called.
@@ -85,6 +97,8 @@ export async function modelFiles(path: string): Promise<{ readonly main: string;
     for (const library of libraries)
       for (const name of namesAfter(await readFile(library, 'utf8'), /^(?:map_\w+|bump|disp|norm|refl|decal)\s+(.*)$/i))
         await add(relative(folder, resolve(dirname(library), name)));
+  } else if (/\.usd[acz]?$/i.test(path)) {
+    for (const name of await usdNames(path)) await add(name);
   }
   return {
     main,

@@ -64,7 +64,11 @@ export type ImageTarget = OutputTarget & { readonly format: Exclude<OutputTarget
 export const isImage = (target: OutputTarget): target is ImageTarget => target.format !== 'film';
 
 /** The bytes of one output file. */
-export function encodeImage(image: RenderedImage, target: ImageTarget, display: DisplayOptions): Uint8Array {
+export async function encodeImage(
+  image: RenderedImage,
+  target: ImageTarget,
+  display: DisplayOptions,
+): Promise<Uint8Array> {
   if (target.format === 'png') return pngFile(image, target.bits === 16 ? 16 : 8, display);
   if (target.format === 'exr') return exrFile(image, target.bits === 32 ? 32 : 16);
   return encodeHdr({ width: image.width, height: image.height, data: image.denoised?.data ?? image.beauty });
@@ -114,7 +118,7 @@ export async function writeImage(
   display: DisplayOptions,
   cwd: string,
 ): Promise<WrittenFile> {
-  const bytes = encodeImage(image, target, display);
+  const bytes = await encodeImage(image, target, display);
   await writeWhole(target.path, cwd, [bytes]);
   return { path: target.path, format: target.format, bits: target.bits, bytes: bytes.length };
 }

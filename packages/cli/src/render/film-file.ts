@@ -1,8 +1,6 @@
-import { createHash } from 'node:crypto';
 import { open, stat, type FileHandle } from 'node:fs/promises';
 import type { FilmCodec, FilmSource, FilmState } from '../backend';
 import { writeWhole } from '../output/write';
-import { hashRange } from './hash-range';
 
 /** The first line of a film file; a line of JSON follows, and then the film. */
 const FIRST_LINE = 'GLANZ CHECKPOINT 1\n';
@@ -16,14 +14,10 @@ export interface FilmFileHeader {
   readonly samples: number;
   /** Of the film. */
   readonly bytes: number;
-  readonly sha256: string;
 }
 
-/** Bytes that are hashed while the ones before them are written. */
-const PIECE_BYTES = 2 ** 23;
-/** Bytes that one call reads. */
-const READ_BYTES = 2 ** 30;
-const NO_HASH = '0'.repeat(64);
+/** Bytes that one call reads or writes. */
+const CALL_BYTES = 2 ** 30;
 
 /** How the reader of a film file reports what is wrong with it. */
 export interface FilmFileErrors {
@@ -36,10 +30,8 @@ export interface FilmFileErrors {
 /** A film file that is open. */
 export interface OpenFilmFile {
   readonly header: FilmFileHeader;
-  /** Its film, for `FilmCodec.merge`. */
+  /** Its film, for `FilmCodec.merge`, which checks its checksum. */
   readonly source: FilmSource;
-  /** Reads all of it. @throws what `broken` makes, if the film is not the one that was written */
-  checkContent(): Promise<void>;
   close(): Promise<void>;
 }
 
@@ -74,30 +66,29 @@ export async function openFilmFile(
     if (end === 0 || !header) throw broken('its header is damaged');
     await check(header);
     if (found.size !== end + header.bytes) throw broken(`it has ${found.size} bytes instead of ${end + header.bytes}`);
-    const checkContent = async () => {
-      if ((await hashRange(file, end, header.bytes)) !== header.sha256) throw broken('its content is damaged');
-    };
     const source: FilmSource = {
       bytes: header.bytes,
       async read(target, position) {
         for (let at = 0; at < target.length;) {
-          const count = Math.min(READ_BYTES, target.length - at);
+          const count = Math.min(CALL_BYTES, target.length - at);
           const { bytesRead } = await handle.read(target, at, count, end + position + at);
           if (bytesRead === 0) throw broken('it ends early');
           at += bytesRead;
         }
       },
       async onError(cause) {
-        const isOld = (cause as { code?: unknown }).code === 'renderer/film-state';
-        return isOld ? broken('its film is of another version', cause) : cause;
+        return (cause as { code?: unknown }).code === 'renderer/film-state' ? broken(whyOf(cause), cause) : cause;
       },
     };
-    return { header, source, checkContent, close: () => handle.close() };
+    return { header, source, close: () => handle.close() };
   } catch (error) {
     await handle.close();
     throw error;
   }
 }
+
+const whyOf = (cause: unknown) =>
+  (cause as Error).message.includes('of version') ? 'its film is of another version' : 'its content is damaged';
 
 /** Reads a film file as a whole; see {@link openFilmFile}. */
 export async function readFilmFile(
@@ -108,15 +99,15 @@ export async function readFilmFile(
 ): Promise<{ readonly header: FilmFileHeader; readonly film: FilmState } | undefined> {
   const opened = await openFilmFile(file, errors, check);
   if (!opened) return undefined;
-  const { header, source, checkContent } = opened;
+  const { header, source } = opened;
   try {
     const bytes = new Uint8Array(header.bytes);
-    await Promise.all([source.read(bytes, 0), checkContent()]);
+    await source.read(bytes, 0);
     const { decode } = await codec();
     try {
       return { header, film: decode(bytes) };
     } catch (cause) {
-      throw errors.broken('its film is of another version', cause);
+      throw errors.broken(whyOf(cause), cause);
     }
   } finally {
     await opened.close();
@@ -148,46 +139,35 @@ export async function writeFilmFile(
 ): Promise<number> {
   const pieces = (await codec()).encode(state, withBeauty);
   const bytes = pieces.reduce((sum, { length }) => sum + length, 0);
-  const linesOf = (sha256: string) =>
-    new TextEncoder().encode(
-      `${FIRST_LINE}${JSON.stringify({ settings, samples: state.samples, bytes, sha256 } satisfies FilmFileHeader)}\n`,
-    );
-  const start = linesOf(NO_HASH).length;
+  const header: FilmFileHeader = { settings, samples: state.samples, bytes };
+  const lines = new TextEncoder().encode(`${FIRST_LINE}${JSON.stringify(header)}\n`);
   const write = async (handle: FileHandle) => {
-    const hash = createHash('sha256');
-    let at = start;
-    for (const piece of pieces)
-      for (let from = 0; from < piece.length; from += PIECE_BYTES) {
-        const part = piece.subarray(from, from + PIECE_BYTES);
-        const written = writeAt(handle, part, at);
-        hash.update(part);
-        await written;
-        at += part.length;
-      }
-    // It is as long as the one without the hash.
-    await writeAt(handle, linesOf(hash.digest('hex')), 0);
+    let at = 0;
+    for (const piece of [lines, ...pieces]) {
+      await writeAt(handle, piece, at);
+      at += piece.length;
+    }
   };
   await writeWhole(path, cwd, write, { sync });
-  return start + bytes;
+  return lines.length + bytes;
 }
 
 async function writeAt(handle: FileHandle, bytes: Uint8Array, position: number): Promise<void> {
   for (let at = 0; at < bytes.length;)
-    at += (await handle.write(bytes, at, bytes.length - at, position + at)).bytesWritten;
+    at += (await handle.write(bytes, at, Math.min(CALL_BYTES, bytes.length - at), position + at)).bytesWritten;
 }
 
 function parseHeader(text: string): FilmFileHeader | undefined {
   try {
-    const { settings, samples, bytes, sha256 } = JSON.parse(text) as FilmFileHeader;
+    const { settings, samples, bytes } = JSON.parse(text) as FilmFileHeader;
     const sound =
       typeof settings === 'object' &&
       settings !== null &&
       Number.isSafeInteger(samples) &&
       samples >= 0 &&
       Number.isSafeInteger(bytes) &&
-      bytes >= 0 &&
-      typeof sha256 === 'string';
-    return sound ? { settings, samples, bytes, sha256 } : undefined;
+      bytes >= 0;
+    return sound ? { settings, samples, bytes } : undefined;
   } catch {
     return undefined;
   }

@@ -12,6 +12,7 @@ import { CliError } from '../errors';
 import type { CliIo } from '../io';
 import type { RenderCommandOptions } from '../options';
 import type { OutputTarget } from '../output/formats';
+import type { RenderedImage } from '../output/image';
 import { isImage, writeImage, type WrittenFile } from '../output/write';
 import { duration, rate, type ProgressReporter } from '../progress';
 import { CheckpointFile } from './checkpoint-file';
@@ -22,6 +23,7 @@ import type { RenderedShot, RenderTimings } from './results';
 import { sceneKey, variantIndex, type PreparedScene, type SceneLoader } from './scene';
 import { beginShot, type ShotInProgress, type Timed } from './shot-in-progress';
 import { shotLabel, type Shot } from './shots';
+import { MovingScene } from './moving-scene';
 import { cameraOf } from '../views';
 
 /** How images are made. */
@@ -54,6 +56,8 @@ export class GpuWorker {
   readonly #gpu: RecoverableGpu;
   #tracer: Tracer | undefined;
   #denoiser: { readonly quality: DenoiseQuality; readonly made: ImageDenoiser } | undefined;
+  /** The tracer's scene, where frames of a film are made. */
+  #moving: MovingScene | undefined;
   #key = '';
   #warnedScene: Scene | undefined;
 
@@ -129,7 +133,7 @@ export class GpuWorker {
     // Before the samples: what is missing shows at once.
     const denoiser = await timed('prepareMs', () => this.#denoiserOf(options));
     await this.#restore(tracer, making);
-    await timed('renderMs', () => this.#sample(tracer, making));
+    await timed('renderMs', () => (shot.motion ? this.#expose(tracer, scene, shot) : this.#sample(tracer, making)));
     const { samples } = tracer;
     if (signal.aborted && file && samples > 0) {
       await checkpoints.save(tracer);
@@ -139,7 +143,9 @@ export class GpuWorker {
     if (samples === 0 || (signal.aborted && !keepPartial)) return undefined;
     const denoised = await timed('denoiseMs', () => this.#denoised(denoiser, tracer, shot));
     progress.stage('write');
-    const image = await timed('readMs', () => readImage(tracer, options, samples, denoised));
+    const image = shot.outputs.some(isImage)
+      ? await timed('readMs', () => readImage(tracer, options, samples, denoised))
+      : undefined;
     const film = shot.outputs.some(({ format }) => format === 'film')
       ? await timed('readMs', () => tracer.saveFilm())
       : undefined;
@@ -151,7 +157,7 @@ export class GpuWorker {
       files.push(
         await timed('writeMs', () =>
           isImage(target)
-            ? writeImage(image, target, display, io.cwd)
+            ? writeImage(image as RenderedImage, target, display, io.cwd)
             : this.#writeFilm(film as FilmState, target, shot),
         ),
       );
@@ -262,6 +268,15 @@ export class GpuWorker {
       clearInterval(timer);
     }
     await checkpoints.settled();
+  }
+
+  /** A frame of a film, from its first sample: a lost GPU costs a frame. */
+  async #expose(tracer: Tracer, scene: Scene, shot: Shot): Promise<void> {
+    this.#moving ??= new MovingScene(tracer, scene);
+    for await (const state of this.#moving.expose(shot, this.#context, SUBMIT_MS)) {
+      this.#context.progress.samples(state);
+      this.#gpu.check();
+    }
   }
 
   async #writeFilm(film: FilmState, { path, format, bits }: OutputTarget, shot: Shot): Promise<WrittenFile> {
@@ -379,7 +394,7 @@ export class GpuWorker {
   /** The next image gets a tracer of its own. */
   #drop(): void {
     this.#tracer?.destroy();
-    this.#tracer = undefined;
+    this.#tracer = this.#moving = undefined;
     this.#denoiser?.made.destroy();
     this.#denoiser = undefined;
   }

@@ -23,7 +23,7 @@ async function stamp(path: string | undefined, cwd: string): Promise<string> {
 }
 
 /** An image's identity: everything that decides its pixels, and the state of the files that it is made of. */
-export async function keyOf({ options, variant, view, outputs }: Shot, cwd: string): Promise<string> {
+export async function keyOf({ options, variant, view, outputs, motion }: Shot, cwd: string): Promise<string> {
   const { variants: _, views: __, outputs: ___, ...rest } = options;
   const camera = view.kind === 'camera' && view.camera?.endsWith('.json') ? await stamp(view.camera, cwd) : '';
   const text = JSON.stringify([
@@ -35,6 +35,7 @@ export async function keyOf({ options, variant, view, outputs }: Shot, cwd: stri
     await stamp(options.model, cwd),
     await stamp(options.env, cwd),
     camera,
+    ...(motion ? [motion] : []),
   ]);
   return createHash('sha256').update(text).digest('hex').slice(0, 32);
 }

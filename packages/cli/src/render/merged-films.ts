@@ -9,18 +9,22 @@ import { openFilmFile, settingDifferences, type FilmFileHeader, type OpenFilmFil
 /** The setting in which films to be merged may differ. */
 export const SAMPLES_FROM = '--samples-from';
 
+/** What {@link readFilms} gives. */
+export interface MergedFilms {
+  readonly film: FilmState;
+  readonly settings: FilmFileHeader['settings'];
+  /** Whether the beauty in the film was made of its sums here; the one of a single file may be missing. */
+  readonly isComposed: boolean;
+}
+
 /**
  * Reads films of the same image and adds up their samples.
  *
- * @returns The film, and the settings of the first file.
+ * @returns The film, the settings of the first file, and whether merging has made the film's beauty.
  * @throws {CliError} `cli/film`
  * @throws {RenderError} `renderer/film-state`
  */
-export async function readFilms(
-  paths: readonly string[],
-  cwd: string,
-  backend: Backend,
-): Promise<{ readonly film: FilmState; readonly settings: FilmFileHeader['settings'] }> {
+export async function readFilms(paths: readonly string[], cwd: string, backend: Backend): Promise<MergedFilms> {
   const codec = () => backend.filmCodec();
   let settings: FilmFileHeader['settings'] = {};
   const files: OpenFilmFile[] = [];
@@ -49,13 +53,8 @@ export async function readFilms(
       files.push(opened);
     }
     const { merge } = await codec();
-    const [film, ...contents] = await Promise.allSettled([
-      merge(files.map(({ source }) => source)),
-      ...files.map(({ checkContent }) => checkContent()),
-    ]);
-    // What a damaged film says of itself does not count.
-    for (const end of [...contents, film]) if (end.status === 'rejected') throw end.reason;
-    return { film: (film as PromiseFulfilledResult<FilmState>).value, settings };
+    const film = await merge(files.map(({ source }) => source));
+    return { film, settings, isComposed: files.filter(({ header }) => header.samples > 0).length > 1 };
   } finally {
     for (const { close } of files) await close();
   }
@@ -63,7 +62,7 @@ export async function readFilms(
 
 /** The image of a film: its beauty, and its variance where an output has it. */
 export async function imageOfFilm(
-  film: FilmState,
+  { film, isComposed }: Pick<MergedFilms, 'film' | 'isComposed'>,
   outputs: readonly OutputTarget[],
   backend: Backend,
 ): Promise<RenderedImage> {
@@ -71,7 +70,7 @@ export async function imageOfFilm(
   return {
     width: film.width,
     height: film.height,
-    beauty: layer(film, 'beauty'),
+    beauty: isComposed ? film.sums.beauty : layer(film, 'beauty'),
     ...(outputs.some(({ format }) => format === 'exr') ? { layers: { variance: layer(film, 'variance') } } : {}),
     samples: film.samples,
     software: `Glanz ${version()}`,

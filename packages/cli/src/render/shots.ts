@@ -4,6 +4,19 @@ import type { RenderCommandOptions } from '../options';
 import type { OutputTarget } from '../output/formats';
 import { fileNamePart, type View } from '../views';
 
+/** What moves in a frame of a film, and for how long the shutter is open. */
+export interface FrameMotion {
+  /** Number of the frame. The steps of its view, if that is a turntable, are frames. */
+  readonly frame: number;
+  readonly fps: number;
+  /** Share of the time between two frames in which the shutter is open, from 0 to 1. */
+  readonly shutter: number;
+  /** Times of an open shutter at which the scene is posed; `undefined`: one for each sample. */
+  readonly times: number | undefined;
+  /** An animation of the model by name or number. */
+  readonly animation: string | number | undefined;
+}
+
 /** One image of those that a command asks for. */
 export interface Shot {
   readonly options: RenderCommandOptions;
@@ -16,6 +29,8 @@ export interface Shot {
   readonly checkpoint: string | undefined;
   /** Its film is for a merge alone, which does not need the image that it has come to. */
   readonly isPart?: boolean;
+  /** It is a frame of a film. */
+  readonly motion?: FrameMotion;
 }
 
 function filled(path: string, names: Readonly<Record<string, string>>, several: readonly string[]): string {

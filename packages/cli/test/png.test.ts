@@ -1,0 +1,42 @@
+import sharp from 'sharp';
+import { describe, expect, it } from 'vitest';
+import { encodePng } from '@glanz/image/png';
+import { toneMapPixels } from '@glanz/tonemap';
+import type { RenderedImage } from '../src/output/image';
+import { pngFile } from '../src/output/png';
+
+/** A gradient, a flat part, and transparency. */
+function image(width: number, height: number): RenderedImage {
+  const beauty = new Float32Array(4 * width * height);
+  for (let i = 0; i < beauty.length; i += 4) {
+    const x = (i / 4) % width;
+    const y = Math.floor(i / 4 / width);
+    const alpha = y > height / 2 ? 1 : x / width;
+    beauty.set([alpha * 0.3, (alpha * x) / width, alpha * (0.5 + 0.4 * Math.sin(x * y)), alpha], i);
+  }
+  return { width, height, beauty, samples: 1, software: 'Glanz' };
+}
+
+const DISPLAY = { toneMap: 'neutral', exposure: 0, transparent: true } as const;
+
+describe('pngFile', () => {
+  // Bands of 4 MiB: 1100 rows of 16 bits are three.
+  it.each([8, 16] as const)('%i bits, on the threads of Node: sharp reads the codes of the tone map', async (bits) => {
+    const { width, height, beauty } = image(1000, 1100);
+    const png = await pngFile(image(width, height), bits, DISPLAY);
+    const { toneMap, exposure } = DISPLAY;
+    const output = bits === 8 ? 'uint8' : 'uint16';
+    const codes = toneMapPixels(beauty, width, height, { toneMap, exposure, alpha: 'straight', output });
+    const read = sharp(png);
+    const raw =
+      bits === 8 ? await read.raw().toBuffer() : await read.toColourspace('rgb16').raw({ depth: 'ushort' }).toBuffer();
+    expect(Buffer.compare(raw, Buffer.from(codes.buffer))).toBe(0);
+  });
+
+  it('smaller images have the bytes of encodePng', async () => {
+    const { width, height, beauty, software } = image(60, 40);
+    const data = toneMapPixels(beauty, width, height, { toneMap: 'neutral', alpha: 'straight' });
+    const expected = encodePng({ width, height, data, text: { Software: software } });
+    expect(Buffer.compare(await pngFile(image(60, 40), 8, DISPLAY), expected)).toBe(0);
+  });
+});
