@@ -36,6 +36,11 @@ export default defineConfig({
               name: 'shared',
               test: /packages\/(wgsl\/src\/(?!error)|viewer\/src\/visibility|scene\/src\/until-aborted)/,
             },
+            // What the first image needs of the page and its panels, links and recordings too: one file, not fifteen.
+            {
+              name: 'page',
+              test: /packages\/viewer\/src\/orbit|apps\/playground\/src\/(viewer\/(camera-rig|placement|assigned-material|compose|effects|lens)|output\/layers|state\/(state|limits|store)|selection)/,
+            },
           ],
         },
       },

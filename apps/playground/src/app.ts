@@ -16,7 +16,7 @@ import {
 import type { ModelRequest } from './input/load-messages';
 import { SAMPLES } from './input/samples';
 import { wireFiles } from './input/wire-files';
-import { Selection } from './selection';
+import { chosenParts, Selection, toggled } from './selection';
 import { stateFromQuery } from './state/address';
 import { keepAddress } from './state/keep-address';
 import type { State } from './state/state';
@@ -31,7 +31,7 @@ import { Behind } from './viewer/behind';
 import { CameraRig } from './viewer/camera-rig';
 import { applyChange, present, type EffectsHost } from './viewer/effects';
 import { filmSize } from './viewer/film-size';
-import { Outline } from './viewer/outline';
+import type { Outline } from './viewer/outline';
 import type { Posing } from './viewer/posing';
 import { wireCommands } from './ui/commands';
 import { Session, type SessionStatus } from './viewer/session';
@@ -51,6 +51,7 @@ export class App {
   readonly #behind: Behind;
   readonly #modelListeners: (() => void)[] = [];
   readonly #environmentListeners: (() => void)[] = [];
+  readonly #viewListeners: (() => void)[] = [];
   readonly #statusListeners: ((status: SessionStatus) => void)[] = [];
   #session!: Session;
   #outline: Outline | undefined;
@@ -59,6 +60,8 @@ export class App {
   #loading: AbortController | undefined;
   #posing: Promise<Posing> | undefined;
   #context: Promise<Context> | undefined;
+  /** Whether the last click or key on the image adds to the selection. */
+  #adding = false;
 
   private constructor() {
     const { state } = stateFromQuery(location.search);
@@ -141,8 +144,12 @@ export class App {
 
   #wire(): void {
     const host = this.#host();
-    this.#outline = new Outline(byId<HTMLCanvasElement>('outline'), this.#session);
-    this.#selection.subscribe(({ instance }) => this.#outline?.show(instance));
+    for (const type of ['pointerup', 'keydown'] as const)
+      this.#canvas.addEventListener(
+        type,
+        ({ ctrlKey, metaKey, shiftKey }) => (this.#adding = ctrlKey || metaKey || shiftKey),
+        true,
+      );
     new ResizeObserver(() => this.#resize()).observe(this.#stage);
     const at = (x: number, y: number) => [x / this.#canvas.clientWidth, y / this.#canvas.clientHeight] as const;
     controlCamera(
@@ -172,7 +179,8 @@ export class App {
         next.camera !== before.camera ||
         next.orbit !== before.orbit ||
         next.lens !== before.lens ||
-        next.hidden !== before.hidden
+        next.hidden !== before.hidden ||
+        next.moves !== before.moves
       )
         this.#outline?.clear();
       if (next.scale !== before.scale) this.#resize();
@@ -329,20 +337,21 @@ export class App {
       onStatus: (listener) => this.#statusListeners.push(listener),
       openFiles: (files) => void this.#open(files),
       pickFiles: () => byId('files').click(),
+      load: (request) => this.load(request),
       pose: () => this.#pose(),
       say: (text) => this.#say(text),
       fail: (error) => this.#fail(error),
+      camera: () => this.#cameraFor(this.#aspect()),
+      onView: (listener) => this.#viewListeners.push(listener),
       stageSize: () => [this.#stage.clientWidth, this.#stage.clientHeight],
     };
-    const { makePanels } = await import('./ui/panels');
-    const behindFor = (aspect: number) => {
+    const [{ makePanels }, { Outline }] = await Promise.all([import('./ui/panels'), import('./viewer/outline')]);
+    const outline = (this.#outline = new Outline(byId<HTMLCanvasElement>('outline'), this.#session));
+    this.#selection.subscribe((chosen) => outline.show(chosenParts(chosen)));
+    outline.show(chosenParts(this.#selection.chosen));
+    const behindFor = (aspect: number, camera = this.#cameraFor(aspect)) => {
       const { state } = this.#store;
-      return this.#behind.rendered(
-        state,
-        this.#environments.choose(state, this.#opened?.scene),
-        this.#cameraFor(aspect),
-        aspect,
-      );
+      return this.#behind.rendered(state, this.#environments.choose(state, this.#opened?.scene), camera, aspect);
     };
     makePanels(context, () => this.#behind.saved(this.#store.state), behindFor);
     document.body.dataset['panels'] = 'ready';
@@ -372,7 +381,7 @@ export class App {
     if (!picked || !this.#context) return;
     const [{ applyPreset }, context] = await Promise.all([import('./ui/material/presets'), this.#context]);
     this.#selection.choose({ material: picked.material, instance: picked.instance });
-    applyPreset(context, picked.material, name);
+    applyPreset(context, [picked.material], name);
   }
 
   #pick(x: number, y: number): void {
@@ -385,10 +394,13 @@ export class App {
       this.#store.set({ lens: { ...lens, focus: picked.depth, stop: lens.stop || 2.8 } }, { label: 'Focus' });
       return;
     }
-    this.#selection.choose({
-      material: assignedMaterial(this.#opened!.scene, picked.instance, this.#store.state.variant),
-      instance: picked.instance,
-    });
+    const { scene } = this.#opened!;
+    const materialOf = (index: number) => assignedMaterial(scene, index, this.#store.state.variant);
+    this.#selection.choose(
+      this.#adding
+        ? toggled(this.#selection.chosen, picked.instance, materialOf)
+        : { material: materialOf(picked.instance), instance: picked.instance },
+    );
     this.#canvas.dataset['picked'] = part.name || `part ${picked.instance + 1}`;
   }
 
@@ -433,6 +445,7 @@ export class App {
         () => this.#rig.now,
         this.#aspect(),
       );
+    for (const listener of this.#viewListeners) listener();
   }
 
   #showStatus(status: SessionStatus): void {

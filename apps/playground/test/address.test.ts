@@ -15,3 +15,14 @@ test('the tone map has the name of the command line option; the former name work
   expect(stateFromQuery('?tonemap=aces&tone-map=agx').state.toneMap).toBe('agx');
   warn.mockRestore();
 });
+
+test('samples without a ground stand on a floor, unless the address says otherwise; files stand on what they bring', () => {
+  const floor = (query: string) => stateFromQuery(query).state.floor;
+  expect([floor(''), floor('?model=push-button-low'), floor('?floor=off')]).toEqual([true, true, false]);
+  expect([floor('?model=cornell-box'), floor('?model=ring'), floor('?model=ring&floor=on')]).toEqual([
+    false,
+    false,
+    true,
+  ]);
+  expect([floor('?model=models/box.glb'), floor('?model=models/box.glb&floor=on')]).toEqual([false, true]);
+});

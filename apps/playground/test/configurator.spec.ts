@@ -5,7 +5,8 @@ import {
   dataOf,
   errorWith,
   imageOf,
-  noisy,
+  overlap,
+  plain,
   pixelsOf,
   renderToFile,
   servePlayground,
@@ -25,7 +26,7 @@ test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
 async function open(page: Page, code = '', query = 'level=low&scale=0.25&samples=6&max-depth=3'): Promise<void> {
-  await page.goto(noisy(`${origin}/configurator.html?${query}${code}`));
+  await page.goto(plain(`${origin}/configurator.html?${query}${code}`));
   await expect(page.locator('#stage')).toHaveAttribute('data-ready', '');
   await done(page);
 }
@@ -204,6 +205,39 @@ test('the page keeps its image when its size changes, saves it, and has no acces
   const { deviation, colours } = await pixelsOf(page, readFileSync(await download.path()));
   expect(colours).toBeGreaterThan(500);
   expect(deviation).toBeGreaterThan(20);
+});
+
+test('messages lie over the options and never over the product; the last option scrolls out from under them', async ({
+  page,
+}) => {
+  // The note stays until the test has looked at it.
+  await page.addInitScript(() => {
+    const later = window.setTimeout;
+    window.setTimeout = ((run: TimerHandler, ms?: number, ...rest: unknown[]) =>
+      ms === 9000 ? 0 : later(run, ms, ...rest)) as typeof window.setTimeout;
+  });
+  await open(page);
+  await page.getByRole('button', { name: 'Copy link' }).click();
+  const message = page.locator('.message');
+  await expect(message).toContainText('The link to this button');
+  for (const [width, height] of [
+    [1440, 900],
+    [900, 560],
+    [360, 740],
+  ] as const) {
+    await page.setViewportSize({ width, height });
+    for (const scheme of ['light', 'dark'] as const) {
+      await page.emulateMedia({ colorScheme: scheme });
+      expect(await overlap(page, '.message', '#stage'), `over the product at ${width}`).toBe(0);
+      expect(await overlap(page, '.message', 'footer'), `over the order at ${width}`).toBe(0);
+      await expect(message).toBeInViewport({ ratio: 1 });
+      await page.locator('aside').evaluate((aside) => aside.scrollTo(0, aside.scrollHeight));
+      expect(await overlap(page, '.message', 'aside .small:last-of-type'), `over the options at ${width}`).toBe(0);
+      expect(await checkAccessibility(page), `${scheme} at ${width}`).toEqual([]);
+      if (process.env['GLANZ_SCREENSHOTS'])
+        await page.screenshot({ path: `${process.env['GLANZ_SCREENSHOTS']}/message-${width}-${scheme}.png` });
+    }
+  }
 });
 
 test('without WebGPU the page says so', async ({ page }) => {

@@ -2,6 +2,7 @@ import { readFileSync } from 'node:fs';
 import { deflateRawSync } from 'node:zlib';
 import { expect, test, type Page } from '@playwright/test';
 import { triangle } from '@glanz/browser/files';
+import { usdSquare, usdz } from '@glanz/browser/usd';
 import {
   checkAccessibility,
   dataOf,
@@ -84,6 +85,33 @@ const MTLX = `<?xml version="1.0"?>
     <input name="surfaceshader" type="surfaceshader" nodename="paint_surface" />
   </surfacematerial>
 </materialx>`;
+
+test('a dropped .usdz, and a .usda with its image beside it', async ({ page }) => {
+  await open(page);
+  await drop(page, [{ name: 'blue.usdz', bytes: usdz(usdSquare([0.02, 0.05, 0.8])) }]);
+  await expect.poll(() => dataOf(page, 'scene')).toBe('blue.usdz');
+  await finished(page);
+  const { left } = await halves(page);
+  expect(left[2]).toBeGreaterThan(1.4 * left[0]);
+  const layer = usdSquare([0.5, 0.5, 0.5]).replace(
+    'color3f inputs:diffuseColor = (0.5, 0.5, 0.5)',
+    'color3f inputs:diffuseColor.connect = </Square/Paint/Image.outputs:rgb>',
+  );
+  const image = `def Shader "Image" {
+            uniform token info:id = "UsdUVTexture"
+            asset inputs:file = @./orange.png@
+        }
+
+        def Shader "Surface"`;
+  await drop(page, [
+    { name: 'orange.usda', bytes: Buffer.from(layer.replace('def Shader "Surface"', image)) },
+    { name: 'orange.png', bytes: await png(page, '#ff8000') },
+  ]);
+  await expect.poll(() => dataOf(page, 'scene')).toBe('orange.usda');
+  await finished(page);
+  const second = await halves(page);
+  expect(second.left[0]).toBeGreaterThan(1.4 * second.left[2]);
+});
 
 test('a model from file to file: converge, material, variant, .mtlx, a bad file, size, hide and show, undo, export', async ({
   page,

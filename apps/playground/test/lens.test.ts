@@ -50,8 +50,13 @@ test('standard views look from where they say', () => {
     top: [0, 1, 0],
     bottom: [0, -1, 0],
   } as const;
-  for (const [name, direction] of Object.entries(expected))
-    directionOf(STANDARD_VIEWS[name as keyof typeof expected]).forEach((value, k) =>
-      expect(Math.abs(value - direction[k]!), name).toBeLessThan(0.03),
-    );
+  for (const [name, direction] of Object.entries(expected)) {
+    const seen = directionOf(STANDARD_VIEWS[name as keyof typeof expected]);
+    expect(Math.hypot(...seen), name).toBeCloseTo(1, 12);
+    // Straight up and down views would have no "up": they are tilted to a pitch of 1.55, towards the front.
+    const tilt = direction[1] === 0 ? 0 : Math.PI / 2 - 1.55;
+    const angle = Math.acos(Math.min(1, seen[0] * direction[0] + seen[1] * direction[1] + seen[2] * direction[2]));
+    expect(angle, name).toBeCloseTo(tilt, 7);
+    if (tilt > 0) expect(seen[2], name).toBeCloseTo(Math.sin(tilt), 7);
+  }
 });

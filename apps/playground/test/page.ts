@@ -37,16 +37,16 @@ export const imageOf = (page: Page): Locator => page.locator('#image');
 export const dataOf = async (page: Page, name: string): Promise<string> =>
   (await imageOf(page).getAttribute(`data-${name}`)) ?? '';
 
-/** An address of which images are shown as the film has them, unless it says otherwise. */
-export function noisy(address: string): string {
+/** An address of which images are shown as the film has them, without a floor, unless it says otherwise. */
+export function plain(address: string): string {
   const url = new URL(address);
-  if (!url.searchParams.has('denoise')) url.searchParams.set('denoise', 'off');
+  for (const name of ['denoise', 'floor']) if (!url.searchParams.has(name)) url.searchParams.set(name, 'off');
   return url.href;
 }
 
 /** Opens the page and waits for a scene and its controls. */
 export async function open(page: Page, address: string): Promise<void> {
-  await page.goto(noisy(address));
+  await page.goto(plain(address));
   // Where none comes, the messages of the page say why.
   const shown = async () =>
     (await dataOf(page, 'scene')) === ''
@@ -140,3 +140,19 @@ export async function save(page: Page, name: string): Promise<Download> {
   await page.keyboard.press('Escape');
   return download;
 }
+
+/** Pixels that two elements have in common. */
+export const overlap = (page: Page, one: string, other: string): Promise<number> =>
+  page.evaluate(
+    (selectors) => {
+      const [a, b] = selectors.map((selector) => document.querySelector(selector)!.getBoundingClientRect()) as [
+        DOMRect,
+        DOMRect,
+      ];
+      return (
+        Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) *
+        Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top))
+      );
+    },
+    [one, other],
+  );

@@ -1,5 +1,6 @@
 import type { PathTracer } from '@glanz/renderer';
 import { createScene, type Scene } from '@glanz/scene';
+import '../src/viewer/moves';
 import { expect, test } from 'vitest';
 import { applyPose, posedScene } from '../src/viewer/pose';
 
@@ -71,13 +72,25 @@ test('a tracer is asked for what differs only, and what the user has edited stay
   pose.materials[0]!.parameters = { base_color: [0, 1, 0], specular_roughness: 0.25 };
   const posed = posedScene(scene, pose)!;
   const { tracer, asked } = recorder(scene);
-  await applyPose(tracer, posed, { materials: { 0: { base_color: [0, 0, 1] } } });
+  await applyPose(tracer, posed, { materials: { 0: { base_color: [0, 0, 1] } }, moves: {} });
   expect(asked).toEqual([
     ['move', 0, posed.instances[0]!.transform],
     ['light', 0, posed.lights[0]],
     ['material', 0, { base_color: [0, 0, 1], specular_roughness: 0.25 }],
   ]);
   const still = recorder(posed);
-  await applyPose(still.tracer, posed, { materials: {} });
+  await applyPose(still.tracer, posed, { materials: {}, moves: {} });
   expect(still.asked).toEqual([]);
+});
+
+test('a part that the user has moved is moved from where the pose has it', async () => {
+  const [scene, pose] = [model(), model()];
+  pose.instances[0]!.transform = Array.from(pose.instances[0]!.transform).map((v, i) => (i === 13 ? 2 : v));
+  const posed = posedScene(scene, pose)!;
+  const { tracer, asked } = recorder(scene);
+  const move = { translation: [1, 0, -3] as const, rotation: [0, 0, 0] as const, scale: [1, 1, 1] as const };
+  await applyPose(tracer, posed, { materials: {}, moves: { 0: move } });
+  const before = posed.instances[0]!.transform;
+  const expected = Array.from(before).map((v, i) => v + (i === 12 ? 1 : i === 14 ? -3 : 0));
+  expect(asked[0]).toEqual(['move', 0, expected]);
 });

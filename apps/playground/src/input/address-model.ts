@@ -14,11 +14,11 @@ export async function fetchModel(address: string): Promise<ModelRequest> {
   try {
     url = new URL(address, location.href);
   } catch (cause) {
-    throw wrong('it is no address', cause);
+    throw wrong('it is not an address', cause);
   }
   const entry = decodeURIComponent(url.pathname.split('/').at(-1) ?? '');
-  if (!/^https?:$/.test(url.protocol) || !/\.(glb|gltf|obj|stl)$/i.test(entry))
-    throw wrong('its address must begin with https:// and end in .glb, .gltf, .obj or .stl');
+  if (!/^https?:$/.test(url.protocol) || !/\.(glb|gltf|obj|stl|usd[acz]?)$/i.test(entry))
+    throw wrong('its address must begin with https:// and end in .glb, .gltf, .obj, .stl or .usdz');
   let response: Response;
   try {
     response = await fetch(url);

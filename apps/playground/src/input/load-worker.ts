@@ -20,12 +20,15 @@ async function load(request: LoadRequest): Promise<Scene> {
     const name = entry.slice(entry.lastIndexOf('/') + 1);
     if (/\.stl$/i.test(entry)) return readStl((await bytesOf(entry)) ?? new Uint8Array(), { name });
     const folder = entry.slice(0, entry.length - name.length);
-    if (/\.obj$/i.test(entry))
-      return readObj((await bytesOf(entry)) ?? new Uint8Array(), {
+    const isUsd = /\.usd[acz]?$/i.test(entry);
+    if (isUsd || /\.obj$/i.test(entry)) {
+      const readModel = isUsd ? (await import('@glanz/formats/usd')).readUsd : readObj;
+      return readModel((await bytesOf(entry)) ?? new Uint8Array(), {
         name,
         read: (path) => bytesOf(folder + path),
-        decodeImage: (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream'),
+        decodeImage: request.shapesOnly ? noImage : (bytes) => decodeImageInBrowser(bytes, 'application/octet-stream'),
       });
+    }
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
     return loadGltf(
       { files, entry },
@@ -41,6 +44,11 @@ async function load(request: LoadRequest): Promise<Scene> {
   }
   if (request.kind === 'kit') return createPushButtonKit({ level: request.level });
   if (request.name === 'cornell-box') return createCornellBox();
+  if (!request.name.startsWith('push-button')) {
+    const { GALLERY_MODELS } = await import('@glanz/models/gallery');
+    const create = GALLERY_MODELS[request.name];
+    if (create) return create();
+  }
   return createPushButton({
     level: request.name === 'push-button-high' ? 'high' : request.name === 'push-button-low' ? 'low' : 'medium',
   });

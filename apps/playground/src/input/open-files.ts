@@ -60,7 +60,7 @@ async function openMaterial(
   file: File,
   files: ReadonlyMap<string, File>,
 ): Promise<void> {
-  const [{ materialFromFiles }, { replaceMaterial }] = await Promise.all([
+  const [{ materialFromFiles }, { replaceMaterials }] = await Promise.all([
     import('../output/materialx'),
     import('../ui/material/edits'),
   ]);
@@ -68,14 +68,7 @@ async function openMaterial(
   const { material: index } = selection.chosen;
   const target = scene()?.materials[index];
   if (!target) return;
-  replaceMaterial(
-    store,
-    target,
-    index,
-    parameters,
-    `MaterialX "${name}"`,
-    Object.fromEntries(Object.entries(slots).map(([key, slot]) => [`${index}/${key}`, slot])),
-  );
+  replaceMaterials(store, scene()?.materials ?? [], [index], parameters, `MaterialX "${name}"`, slots);
   clearErrors();
   show({ kind: 'note', text: [`"${name}" is now on "${target.name}".`, ...notes.slice(0, 1)].join(' ') });
 }

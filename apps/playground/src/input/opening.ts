@@ -46,11 +46,15 @@ export function stateFor(
           : before.environment;
   // An image that the user brought lights whatever comes.
   const environment = first || before.environment === 'file' ? before.environment : requested;
-  const state: State = { ...forAnotherModel(before), environment, camera: scene.cameras.length > 0 ? 0 : -1 };
+  // Of a file it is not known whether it brings a ground: the floor stays as it is.
+  const floor = first || request.kind !== 'sample' ? before.floor : SAMPLES[request.name].floor;
+  const state: State = { ...forAnotherModel(before), environment, floor, camera: scene.cameras.length > 0 ? 0 : -1 };
   if (link?.model !== nameOf(request)) return state;
   const { materials = {}, hidden = [], variant = null, clip = null, ...others } = link.state;
   return {
     ...state,
+    // Links leave out what a state begins with, and that is no floor.
+    floor: false,
     ...others,
     materials: checkedMaterials(scene, materials),
     hidden: hidden.filter((index) => Number.isInteger(index) && scene.instances[index] !== undefined),

@@ -11,7 +11,7 @@ export interface GivenFiles {
   readonly material?: File;
 }
 
-const MODEL = /\.(glb|gltf|obj|stl)$/i;
+const MODEL = /\.(glb|gltf|obj|stl|usd[acz]?)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 const MATERIAL = /\.mtlx$/i;
 
@@ -32,7 +32,7 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
     const names = paths.slice(0, 3).map((path) => `"${path}"`);
     throw new PlaygroundError(
       'playground/no-model',
-      `There is no .glb, .gltf, .obj, .stl, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`,
+      `There is no .glb, .gltf, .obj, .stl, .usdz, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`,
     );
   }
   const environment = environmentPath === undefined ? undefined : files.get(environmentPath);

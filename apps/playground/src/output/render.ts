@@ -1,4 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
+import type { Camera } from '@glanz/scene';
 import { renderImage } from '@glanz/viewer/render-image';
 import type { Context } from '../ui/context';
 import { showRenderDialog, type RenderFormat, type RenderRequest } from '../ui/render-dialog';
@@ -17,8 +18,8 @@ function screenSize({ stageSize }: Context): readonly [number, number] {
   return [width as number, height as number];
 }
 
-/** What is behind an image of this shape. */
-export type BehindFor = (aspect: number) => Behind | undefined | Promise<Behind | undefined>;
+/** What is behind an image of this shape. @param camera Default: the camera as it is now. */
+export type BehindFor = (aspect: number, camera?: Camera) => Behind | undefined | Promise<Behind | undefined>;
 
 async function write(
   tracer: PathTracer,

@@ -6,7 +6,7 @@ import type { Engine } from '@glanz/viewer/engine';
 export type Behind = { readonly color: readonly [number, number, number] } | { readonly image: ImageData };
 
 /** Puts straight-alpha codes over an opaque background, as the browser's window does. */
-function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: number, behind: Behind): void {
+export function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: number, behind: Behind): void {
   const top = codes instanceof Uint16Array ? 65535 : 255;
   for (let y = 0, i = 0; y < height; y++) {
     for (let x = 0; x < width; x++, i += 4) {

@@ -1,67 +1,19 @@
-import type { Camera, Scene } from '@glanz/scene';
+import { sceneBounds, type Camera, type Scene } from '@glanz/scene';
 import { initialState, type State } from '../state/state';
+import { FLOOR, FLOOR_PARAMETERS, floorMesh } from '../viewer/compose';
 import { filmBackground } from '../viewer/effects';
+import { addressOf, digits, environmentLines, literal, quoted } from './snippet-text';
 
-const digits = (value: unknown): unknown => (typeof value === 'number' ? Number(value.toPrecision(6)) : value);
-const quoted = (text: string) => `'${text.replaceAll('\\', '\\\\').replaceAll("'", "\\'").replaceAll('\n', '\\n')}'`;
-
-/** A value as a person would write it in TypeScript. */
-function literal(value: unknown, depth = 0): string {
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) {
-    const items = Array.from(value as unknown as unknown[]);
-    if (items.every((item) => typeof item !== 'object')) return `[${items.map((item) => literal(item)).join(', ')}]`;
-    const pad = '  '.repeat(depth + 1);
-    return `[\n${items.map((item) => `${pad}${literal(item, depth + 1)},`).join('\n')}\n${'  '.repeat(depth)}]`;
-  }
-  if (typeof value === 'object' && value !== null)
-    return `{ ${Object.entries(value)
-      .map(([key, item]) => `${/^[A-Za-z_$][\w$]*$/.test(key) ? key : quoted(key)}: ${literal(item, depth)}`)
-      .join(', ')} }`;
-  return typeof value === 'string' ? quoted(value) : String(digits(value));
-}
-
-const BUILT_IN: Readonly<Record<string, string>> = {
-  'push-button': 'push-button-medium.glb',
-  'push-button-low': 'push-button-low.glb',
-  'push-button-high': 'push-button-high.glb',
-  'cornell-box': 'cornell-box.glb',
-};
-
-function environmentLines({ environment, studio, boxes, constant, intensity, rotation }: State): {
-  readonly imports: string[];
-  readonly lines: string[];
-} {
-  const turn = rotation === 0 ? {} : { rotation: (rotation * Math.PI) / 180 };
-  const dim = intensity === 1 ? {} : { intensity };
-  if (environment === 'none') return { imports: [], lines: ['delete scene.environment;'] };
-  if (environment === 'constant')
-    return {
-      imports: [],
-      lines: [`scene.environment = ${literal({ type: 'constant', radiance: constant.map((c) => c * intensity) })};`],
-    };
-  if (environment === 'file') {
-    return {
-      imports: ["import { decodeEnvironment } from '@glanz/image/environment';"],
-      lines: [
-        "const image = decodeEnvironment(new Uint8Array(await (await fetch('/environment.hdr')).arrayBuffer()));",
-        `scene.environment = { type: 'latlong', ...image${Object.entries({ ...dim, ...turn })
-          .map(([key, value]) => `, ${key}: ${literal(value)}`)
-          .join('')} };`,
-      ],
-    };
-  }
-  const options = { ...dim, ...turn };
-  const plain = studio === 'neutral' && !boxes;
-  const setup = boxes ? `{ ...STUDIOS[${quoted(studio)}], boxes: ${literal(boxes)} }` : `STUDIOS[${quoted(studio)}]`;
-  const fields = [
-    ...(plain ? [] : [`setup: ${setup}`]),
-    ...Object.entries(options).map(([key, value]) => `${key}: ${literal(value)}`),
+/** Statements that put the invisible floor under the model. */
+function floorLines(scene: Scene): string[] {
+  const name = quoted(FLOOR);
+  const { positions } = floorMesh(sceneBounds(scene));
+  return [
+    `const positions = Float32Array.of(${Array.from(positions, digits).join(', ')});`,
+    `scene.meshes.push({ name: ${name}, positions, indices: Uint32Array.of(0, 1, 2, 0, 2, 3) });`,
+    `scene.materials.push({ name: ${name}, parameters: ${literal(FLOOR_PARAMETERS)} });`,
+    `scene.instances.push({ name: ${name}, mesh: scene.meshes.length - 1, material: scene.materials.length - 1, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], catcher: true });`,
   ];
-  const made = `studioEnvironment(${fields.length > 0 ? `{ ${fields.join(', ')} }` : ''})`;
-  return {
-    imports: [`import { ${plain ? '' : 'STUDIOS, '}studioEnvironment } from '@glanz/scene/studio';`],
-    lines: [`scene.environment ${environment === 'model' ? '??=' : '='} ${made};`],
-  };
 }
 
 /**
@@ -97,6 +49,7 @@ export function codeSnippet(
     before.push(
       '// Images that were dropped on parameters are not in this program: add them to scene.images and scene.textures.',
     );
+  if (state.floor) before.push(...floorLines(scene));
   const options = [
     `width: ${width}`,
     `height: ${height}`,
@@ -114,7 +67,7 @@ export function codeSnippet(
     "import { toneMapPixels } from '@glanz/tonemap';",
     ...imports,
     '',
-    `const scene = await loadGltf(${quoted(`/${BUILT_IN[name] ?? name}`)}${pose});`,
+    `const scene = await loadGltf(${quoted(addressOf(name))}${pose});`,
     ...lines,
     ...before,
     `const camera = ${literal(camera)} as const;`,

@@ -27,6 +27,8 @@ export function stateFromQuery(search: string): { readonly model: SampleName; re
   const query = new URLSearchParams(search);
   const model = one(query.get('model'), Object.keys(SAMPLES) as SampleName[], 'push-button');
   const initial = initialState(SAMPLES[model].environment);
+  // A file of another address may bring a ground.
+  const stands = SAMPLES[model].floor && (query.get('model') ?? model) === model;
   const state: State = {
     ...initial,
     samples: number(query.get('samples'), ...LIMITS.samples, initial.samples, true),
@@ -37,6 +39,7 @@ export function stateFromQuery(search: string): { readonly model: SampleName; re
     intensity: number(query.get('intensity'), 0, 10, 1),
     rotation: number(query.get('rotation'), -180, 180, 0),
     background: one(query.get('background'), BACKGROUNDS, 'environment'),
+    floor: one(query.get('floor'), ['on', 'off'], stands ? 'on' : 'off') === 'on',
     exposure: number(query.get('exposure'), -8, 8, 0),
     toneMap: one(renamed(query, 'tone-map', 'tonemap'), TONE_MAPS, 'neutral'),
     denoise: query.get('denoise') !== 'off',

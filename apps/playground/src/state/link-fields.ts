@@ -1,13 +1,17 @@
 import { STUDIOS, type SoftBox, type StudioName } from '@glanz/scene/studio';
 import { TONE_MAPS } from '@glanz/tonemap';
+import '../viewer/moves';
 import { LIMITS } from './limits';
 import {
   BACKGROUNDS,
   ENVIRONMENT_CHOICES,
   initialState,
+  MAX_VIEWS,
+  MIN_SCALE,
   SCALES,
   type GroupSettings,
   type Lens,
+  type Move,
   type OrbitView,
   type Rgb,
   type State,
@@ -92,6 +96,14 @@ const orbit: Read<OrbitView> = (value) => {
     : undefined;
 };
 
+const move: Read<Move> = (value) => {
+  if (!isRecord(value)) return undefined;
+  const [translation, rotation, scale] = [point(value['translation']), point(value['rotation']), point(value['scale'])];
+  return translation && rotation && scale?.every((factor) => Math.abs(factor) >= MIN_SCALE)
+    ? { translation, rotation, scale }
+    : undefined;
+};
+
 const lens: Read<Lens> = (value) => {
   if (!isRecord(value)) return undefined;
   const initial = initialState('studio').lens;
@@ -158,8 +170,10 @@ const FIELDS: { readonly [Name in keyof State]?: Read<State[Name]> } = {
   camera: whole(-1, 1e6),
   orbit: orNull(orbit),
   lens,
+  walk: list(orbit, MAX_VIEWS),
   materials: record((value) => (isRecord(value) ? value : undefined)),
   hidden: list((value) => (Number.isInteger(value) && (value as number) >= 0 ? (value as number) : undefined)),
+  moves: record(move),
   variant: orNull(text),
   clip: orNull(whole(0, 1e6)),
   time: number(0, 1e6),

@@ -27,6 +27,19 @@ export type Slot = {
   readonly binding: Omit<TextureBinding, 'texture'>;
 } | null;
 
+/** Smallest factor of a part that is scaled: without an extent it would have no normals. */
+export const MIN_SCALE = 1e-3;
+
+/** How a part is moved from where the model has it: scaled, then turned, about its own middle, then translated. */
+export interface Move {
+  /** Metres, along the world's axes. */
+  readonly translation: Rgb;
+  /** Degrees about the world's X, then Y, then Z axis. */
+  readonly rotation: Rgb;
+  /** Factors along the world's axes, before it is turned. */
+  readonly scale: Rgb;
+}
+
 /** Where an orbiting camera is. */
 export interface OrbitView {
   readonly target: Rgb;
@@ -38,6 +51,9 @@ export interface OrbitView {
   /** Magnification of a parallel projection. */
   readonly zoom: number;
 }
+
+/** So many views a camera walk has at most. */
+export const MAX_VIEWS = 64;
 
 /** What the user says of the lens; null leaves it to the camera. */
 export interface Lens {
@@ -101,6 +117,8 @@ export interface State {
   /** Where the user has moved it. */
   readonly orbit: OrbitView | null;
   readonly lens: Lens;
+  /** Views that a camera walk goes through, in this order. */
+  readonly walk: readonly OrbitView[];
 
   /** Parameters that differ from the model's, by the index of the material. */
   readonly materials: Readonly<Record<string, Values>>;
@@ -108,6 +126,8 @@ export interface State {
   readonly slots: Readonly<Record<string, Slot>>;
   /** Indices of hidden instances. */
   readonly hidden: readonly number[];
+  /** Of parts that the user has moved, by their indices. */
+  readonly moves: Readonly<Record<string, Move>>;
   readonly variant: string | null;
   /** Index of an animation, and seconds from its beginning. */
   readonly clip: number | null;
@@ -142,9 +162,11 @@ export function initialState(environment: EnvironmentChoice): State {
     camera: 0,
     orbit: null,
     lens: { projection: 'perspective', fov: null, stop: 0, blades: 0, focus: null },
+    walk: [],
     materials: {},
     slots: {},
     hidden: [],
+    moves: {},
     variant: null,
     clip: null,
     time: 0,
@@ -156,9 +178,11 @@ export const forAnotherModel = (state: State): State => ({
   ...state,
   orbit: null,
   lens: { ...state.lens, focus: null },
+  walk: [],
   materials: {},
   slots: {},
   hidden: [],
+  moves: {},
   variant: null,
   clip: null,
   time: 0,

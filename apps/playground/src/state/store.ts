@@ -6,6 +6,8 @@ export interface ChangeOptions {
   readonly label?: string;
   /** Changes in a row of one key are one step, e.g. those of a slider that is dragged. Default: the label. */
   readonly merge?: string;
+  /** Whether it joins a former step of this key however long ago that was: a drag is one step. */
+  readonly held?: boolean;
 }
 
 interface Step<S> {
@@ -56,13 +58,13 @@ export class Store<S extends object> {
     return () => this.#listeners.delete(listener);
   }
 
-  set(change: Partial<S>, { label, merge }: ChangeOptions = {}): void {
+  set(change: Partial<S>, { label, merge, held = false }: ChangeOptions = {}): void {
     const keys = Object.keys(change) as (keyof S)[];
     if (keys.every((key) => Object.is(change[key], this.#state[key]))) return;
     if (label !== undefined) {
       const key = merge ?? label;
       const last = this.#undo.at(-1);
-      if (last && last.key === key && this.#now() - last.at < MERGE_MS) last.at = this.#now();
+      if (last?.key === key && (held || this.#now() - last.at < MERGE_MS)) last.at = this.#now();
       else {
         this.#undo.push({ label, key, before: this.#state, at: this.#now() });
         if (this.#undo.length > MAX_STEPS) this.#undo.shift();

@@ -1,5 +1,5 @@
 import { TONE_MAPS, type ToneMap } from '@glanz/tonemap';
-import type { Lens } from '../state/state';
+import { MAX_VIEWS, type Lens } from '../state/state';
 import { fieldOfView, focalLength, STANDARD_VIEWS, type StandardView } from '../viewer/lens';
 import { changer, watch, type Context } from './context';
 import { element } from './elements';
@@ -148,8 +148,30 @@ export function cameraPanel(context: Context): HTMLElement[] {
     exposure.set(state.exposure);
     toneMap.set(state.toneMap);
   });
+  const walkNote = element('p', { class: 'note', id: 'walk-note', role: 'status' });
+  const addView = element('button', { type: 'button', id: 'walk-add' }, 'Add this view');
+  const clearViews = element('button', { type: 'button', id: 'walk-clear', class: 'quiet' }, 'Clear');
+  addView.addEventListener('click', () =>
+    store.set(
+      { walk: [...store.state.walk, rig.view] },
+      { label: 'Add view', merge: `view ${store.state.walk.length}` },
+    ),
+  );
+  clearViews.addEventListener('click', () => store.set({ walk: [] }, { label: 'Clear camera walk' }));
+  watch(store, ['walk'], ({ walk }) => {
+    const views = `${walk.length} ${walk.length === 1 ? 'view' : 'views'}`;
+    walkNote.textContent =
+      walk.length === 0
+        ? 'Views that a video goes through, see Export.'
+        : walk.length === 1
+          ? `${views}; a walk needs two.`
+          : `${views}.`;
+    clearViews.hidden = walk.length === 0;
+    addView.disabled = walk.length >= MAX_VIEWS;
+  });
   return [
     section('View', camera.element, views),
+    section('Camera walk', walkNote, element('div', { class: 'chips' }, addView, clearViews)),
     section('Lens', projection.element, focal.element, fov.element, stop.element, blades.element, focus.element, auto),
     section('Development', exposure.element, toneMap.element),
   ];

@@ -1,4 +1,4 @@
-import type { Selection } from '../selection';
+import { chosenParts, type Selection } from '../selection';
 import type { State } from '../state/state';
 import type { Store } from '../state/store';
 import type { CameraRig } from '../viewer/camera-rig';
@@ -34,19 +34,25 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
   };
   const dialog = byId<HTMLDialogElement>('keys-dialog');
   const hide = () => {
-    const { instance } = selection.chosen;
-    if (instance !== undefined && !store.state.hidden.includes(instance))
-      store.set({ hidden: [...store.state.hidden, instance] }, { label: 'Hide part' });
+    const { hidden } = store.state;
+    const parts = chosenParts(selection.chosen).filter((part) => !hidden.includes(part));
+    if (parts.length > 0)
+      store.set({ hidden: [...hidden, ...parts] }, { label: parts.length > 1 ? 'Hide parts' : 'Hide part' });
   };
   const shortcuts: Shortcut[] = [
     { keys: ['mod+z'], title: 'Undo', run: undo },
     { keys: ['mod+shift+z', 'mod+y'], title: 'Redo', run: redo },
     { keys: [' '], title: 'Pause', run: pause },
     { keys: ['0', 'home'], title: 'Reset view', run: () => rig.choose(store.state.camera) },
-    { keys: ['f'], title: 'Frame the chosen part', run: () => rig.frame(selection.chosen.instance) },
+    { keys: ['f'], title: 'Frame the chosen parts', run: () => rig.frame(chosenParts(selection.chosen)) },
     { keys: ['d'], title: 'Focus by click', run: focus },
-    { keys: ['h'], title: 'Hide the chosen part', run: hide },
+    { keys: ['h'], title: 'Hide the chosen parts', run: hide },
     { keys: ['shift+h'], title: 'Show all parts', run: () => store.set({ hidden: [] }, { label: 'Show all' }) },
+    ...(['move', 'rotate', 'scale'] as const).map((tool, i) => ({
+      keys: ['grs'.charAt(i)],
+      title: ['Move the chosen parts', 'Turn the chosen parts', 'Scale the chosen parts'][i] as string,
+      run: () => document.getElementById(`tool-${tool}`)?.click(),
+    })),
     { keys: ['1'], title: 'View from the front', run: () => rig.look('front') },
     { keys: ['3'], title: 'View from the right', run: () => rig.look('right') },
     { keys: ['7'], title: 'View from the top', run: () => rig.look('top') },
@@ -78,7 +84,7 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
     ['redo', redo],
     ['pause', pause],
     ['home', () => rig.choose(store.state.camera)],
-    ['fit', () => rig.frame(selection.chosen.instance)],
+    ['fit', () => rig.frame(chosenParts(selection.chosen))],
     ['focus', focus],
   ] as const)
     byId(id).addEventListener('click', run);

@@ -1,4 +1,6 @@
+import type { Camera } from '@glanz/scene';
 import type { Opened } from '../input/opening';
+import type { ModelRequest } from '../input/load-messages';
 import type { Environments } from '../input/environments';
 import type { Selection } from '../selection';
 import type { State } from '../state/state';
@@ -22,10 +24,16 @@ export interface Context {
   readonly onStatus: (listener: (status: SessionStatus) => void) => void;
   readonly openFiles: (files: ReadonlyMap<string, File>) => void;
   readonly pickFiles: () => void;
+  /** Shows another model. */
+  readonly load: (request: ModelRequest) => Promise<void>;
   /** Brings the model into the pose that the state's animation has. @returns Whether it is on its way to the screen. */
   readonly pose: () => Promise<boolean>;
   readonly say: (text: string) => void;
   readonly fail: (error: unknown) => void;
+  /** The camera as it is now, for the stage. */
+  readonly camera: () => Camera;
+  /** Calls the listener when the camera, the state or the size of the stage has changed. */
+  readonly onView: (listener: () => void) => void;
   /** Size of the stage, CSS pixels. */
   readonly stageSize: () => readonly [number, number];
 }

@@ -14,11 +14,11 @@ export interface Message {
 const NOTE_MS = 9000;
 const MAX_MESSAGES = 3;
 
-/** One-line messages over the image. */
+/** One-line messages beside the image. */
 export class Messages {
   readonly #region: HTMLElement;
 
-  /** @param region An element with `aria-live`. */
+  /** @param region A popover is shown above all else while it has messages. */
   constructor(region: HTMLElement) {
     this.#region = region;
   }
@@ -30,11 +30,11 @@ export class Messages {
       { class: `message ${kind}`, role: kind === 'error' ? 'alert' : 'status', 'data-code': code },
       element('p', {}, text),
     );
-    close.addEventListener('click', () => message.remove());
+    close.addEventListener('click', () => this.#remove(message));
     if (action) {
       const button = element('button', { type: 'button' }, action.title);
       button.addEventListener('click', () => {
-        message.remove();
+        this.#remove(message);
         action.run();
       });
       message.append(button);
@@ -44,11 +44,24 @@ export class Messages {
     for (const other of this.#region.children) if (other.querySelector('p')?.textContent === text) other.remove();
     this.#region.append(message);
     while (this.#region.children.length > MAX_MESSAGES) this.#region.firstElementChild?.remove();
-    if (kind === 'note' && !stays) setTimeout(() => message.remove(), NOTE_MS);
+    if (kind === 'note' && !stays) setTimeout(() => this.#remove(message), NOTE_MS);
+    this.#raise();
   }
 
   /** Removes errors: what they spoke of is over. */
   clearErrors(): void {
-    for (const message of this.#region.querySelectorAll('.error')) message.remove();
+    for (const message of this.#region.querySelectorAll('.error')) this.#remove(message);
+  }
+
+  #remove(message: Element): void {
+    message.remove();
+    if (this.#region.popover && this.#region.childElementCount === 0) this.#region.hidePopover();
+  }
+
+  /** Above menus and dialogs that were opened since the last message. */
+  #raise(): void {
+    if (!this.#region.popover) return;
+    this.#region.hidePopover();
+    this.#region.showPopover();
   }
 }

@@ -1,10 +1,9 @@
 import type { ImageProgress } from '@glanz/viewer';
 import { MAX_ADAPTIVE_SAMPLES } from '@glanz/renderer/options';
-import { describeError, isAbort } from '../errors';
 import { download } from '../output/save';
-import '../style/render-dialog.css';
 import { LIMITS } from '../state/limits';
 import { element } from './elements';
+import { below, numberBox, row, select, waitText, workDialog } from './work-dialog';
 
 /** A kind of file that a page can write. */
 export interface RenderFormat {
@@ -60,53 +59,6 @@ const SIZES: readonly (readonly [title: string, width: number, height: number])[
 
 const sizeText = (width: number, height: number) => `${width} × ${height}`;
 
-/** Time to wait, in words. */
-export function waitText(ms: number): string {
-  const seconds = Math.ceil(ms / 1000);
-  if (seconds < 90) return `${seconds} s`;
-  return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;
-}
-
-/** A number box that keeps to its range. */
-function numberBox(
-  id: string,
-  label: string,
-  value: number,
-  [low, high]: readonly [number, number],
-  step: number | 'any',
-): HTMLInputElement {
-  const box = element('input', {
-    type: 'number',
-    id,
-    min: low,
-    max: high,
-    step,
-    value,
-    required: true,
-    'aria-label': label,
-    inputmode: 'decimal',
-  });
-  box.addEventListener('change', () => {
-    const typed = box.valueAsNumber;
-    const kept = Number.isFinite(typed) ? Math.min(Math.max(step === 1 ? Math.round(typed) : typed, low), high) : value;
-    box.value = String(kept);
-  });
-  return box;
-}
-
-const row = (label: string, id: string, ...controls: HTMLElement[]) =>
-  element('div', { class: 'render-row' }, element('label', { for: id }, label), ...controls);
-
-const select = (
-  id: string,
-  choices: readonly (readonly [value: string, title: string])[],
-  value: string,
-): HTMLSelectElement => {
-  const made = element('select', { id }, ...choices.map(([key, title]) => element('option', { value: key }, title)));
-  made.value = value;
-  return made;
-};
-
 /**
  * Shows a dialog that renders the image at any size, to a file or the clipboard. It is removed from the page when it
  * closes.
@@ -151,47 +103,15 @@ export function showRenderDialog(host: RenderHost): void {
     'fieldset',
     {},
     row('Size', 'render-size', size),
-    element(
-      'div',
-      { class: 'render-row' },
-      element('span', {}),
-      element('div', { class: 'render-pair' }, width, '×', height, 'pixels'),
-    ),
+    below(width, '×', height, 'pixels'),
     row('Stop at', 'render-goal', goal),
-    element(
-      'div',
-      { class: 'render-row' },
-      element('span', {}),
-      element('div', { class: 'render-pair' }, samples, noise),
-    ),
+    below(samples, noise),
     row('Format', 'render-format', format),
     row('Transparent background', 'render-transparent', transparent),
   );
-  const bar = element('progress', { max: 1, value: 0, 'aria-label': 'Rendered' });
-  const figures = element('p', { class: 'note', id: 'render-figures' });
-  const progress = element('div', { class: 'render-progress', hidden: true }, bar, figures);
-  const said = element('p', { class: 'note', role: 'status' });
-  const wrong = element('p', { class: 'render-error', role: 'alert', hidden: true });
   const copy = element('button', { type: 'button', id: 'render-copy' }, 'Copy to clipboard');
   const save = element('button', { type: 'submit', id: 'render-save', class: 'primary' }, 'Save file');
-  const cancel = element('button', { type: 'button', id: 'render-cancel', hidden: true }, 'Cancel');
-  const close = element('button', { type: 'button', class: 'quiet square', 'aria-label': 'Close' }, '×');
-  const form = element(
-    'form',
-    { method: 'dialog', novalidate: true },
-    inputs,
-    progress,
-    said,
-    wrong,
-    element('div', { class: 'render-actions' }, cancel, copy, save),
-  );
-  const dialog = element(
-    'dialog',
-    { id: 'render-dialog', class: 'dialog render-dialog', 'aria-labelledby': 'render-title' },
-    element('header', {}, element('h2', { id: 'render-title' }, 'Render image'), close),
-    form,
-  );
-  let running: AbortController | undefined;
+  let working = false;
 
   const chosen = () => host.formats.find(({ id }) => id === format.value) as RenderFormat;
   const follow = () => {
@@ -201,21 +121,30 @@ export function showRenderDialog(host: RenderHost): void {
     [width.value, height.value] = [String(w), String(h)];
     [samples.hidden, noise.hidden] = [goal.value === 'noise', goal.value !== 'noise'];
     transparent.disabled = !chosen().alpha;
-    copy.disabled = running !== undefined || chosen().type !== 'image/png' || typeof ClipboardItem === 'undefined';
+    copy.disabled = working || chosen().type !== 'image/png' || typeof ClipboardItem === 'undefined';
     copy.title = chosen().type === 'image/png' ? '' : 'The clipboard takes PNG only';
   };
-  const busy = (controller: AbortController | undefined) => {
-    running = controller;
-    inputs.disabled = controller !== undefined;
-    [progress.hidden, cancel.hidden] = [controller === undefined, controller === undefined];
-    [save.hidden, copy.hidden] = [controller !== undefined, controller !== undefined];
-    follow();
-  };
+  const { open, progress, run } = workDialog({
+    name: 'render',
+    title: 'Render image',
+    progress: 'Rendered',
+    inputs,
+    actions: [copy, save],
+    onBusy: (busy) => {
+      working = busy;
+      follow();
+    },
+    submit: () => {
+      const name = `${host.name}.${chosen().extension}`;
+      void run(async (signal) => {
+        download(await render(signal), name, chosen().type);
+        return `${name}, ${made()}, is in your downloads.`;
+      });
+    },
+  });
 
   /** Renders as the dialog says. */
   const render = async (signal: AbortSignal): Promise<Blob> => {
-    bar.value = 0;
-    figures.textContent = 'Preparing';
     return host.render({
       width: width.valueAsNumber,
       height: height.valueAsNumber,
@@ -225,48 +154,18 @@ export function showRenderDialog(host: RenderHost): void {
       format: format.value,
       signal,
       onProgress: ({ samples: done, target, remainingMs, share }) => {
-        bar.value = share;
         const left = Number.isFinite(remainingMs) && remainingMs > 0 ? ` · ${waitText(remainingMs)} left` : '';
-        figures.textContent = goal.value === 'noise' ? `${done} samples${left}` : `${done} of ${target} samples${left}`;
+        progress(share, goal.value === 'noise' ? `${done} samples${left}` : `${done} of ${target} samples${left}`);
       },
     });
   };
-  const run = async (keep: (blob: Promise<Blob>) => Promise<string>) => {
-    if (running) return;
-    const controller = new AbortController();
-    busy(controller);
-    wrong.hidden = true;
-    said.textContent = '';
-    cancel.focus();
-    try {
-      said.textContent = await keep(render(controller.signal));
-    } catch (error) {
-      if (controller.signal.aborted || isAbort(error)) said.textContent = 'Cancelled.';
-      else {
-        const { message, code } = describeError(error);
-        wrong.textContent = message;
-        wrong.dataset['code'] = code;
-        wrong.hidden = false;
-      }
-    } finally {
-      busy(undefined);
-      if (dialog.open) save.focus();
-    }
-  };
   const made = () => sizeText(width.valueAsNumber, height.valueAsNumber);
 
-  form.addEventListener('submit', (event) => {
-    event.preventDefault();
-    const name = `${host.name}.${chosen().extension}`;
-    void run(async (blob) => {
-      download(await blob, name, chosen().type);
-      return `${name}, ${made()}, is in your downloads.`;
-    });
-  });
   copy.addEventListener(
     'click',
     () =>
-      void run(async (blob) => {
+      void run(async (signal) => {
+        const blob = render(signal);
         // Written at once, while the browser still counts the click: the item waits for the image.
         const written = navigator.clipboard.write([new ClipboardItem({ 'image/png': blob })]);
         written.catch(() => undefined);
@@ -275,15 +174,7 @@ export function showRenderDialog(host: RenderHost): void {
         return `The image, ${made()}, is on the clipboard.`;
       }),
   );
-  cancel.addEventListener('click', () => running?.abort());
-  close.addEventListener('click', () => dialog.close());
-  dialog.addEventListener('close', () => {
-    running?.abort();
-    dialog.remove();
-  });
   for (const one of [size, goal, format]) one.addEventListener('change', follow);
   for (const one of [width, height]) one.addEventListener('input', () => void (size.value = 'own'));
-  busy(undefined);
-  document.body.append(dialog);
-  dialog.showModal();
+  open();
 }

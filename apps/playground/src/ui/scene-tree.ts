@@ -1,3 +1,4 @@
+import { chosenParts, toggled, withParts } from '../selection';
 import { assignedMaterial } from '../viewer/assigned-material';
 import type { Context } from './context';
 import { element } from './elements';
@@ -8,7 +9,12 @@ import { currentValue } from './material/edits';
 /** More rows than this are found by searching. */
 const MAX_ROWS = 400;
 
-/** The parts of a scene: a click chooses one, the eye hides it, Alt and the eye hide all others. */
+type Modifiers = Pick<MouseEvent, 'ctrlKey' | 'metaKey' | 'shiftKey'>;
+
+/**
+ * The parts of a scene: a click chooses one, with Ctrl one more, with Shift all up to it; the eye hides what is chosen,
+ * Alt and the eye hide all others.
+ */
 export class SceneTree {
   readonly elements: readonly HTMLElement[];
   readonly #context: Context;
@@ -27,6 +33,8 @@ export class SceneTree {
   readonly #list = element('ul', { class: 'tree', id: 'parts', 'aria-label': 'Parts' });
   readonly #showAll = element('button', { type: 'button', id: 'show-all', class: 'quiet', hidden: true }, 'Show all');
   #rows = new Map<number, HTMLElement>();
+  /** Where a range begins. */
+  #anchor: number | undefined;
 
   constructor(context: Context) {
     this.#context = context;
@@ -98,17 +106,14 @@ export class SceneTree {
   }
 
   #row(index: number, name: string, material: number): HTMLElement {
-    const { selection, opened, store } = this.#context;
-    const { scene } = opened();
+    const { scene } = this.#context.opened();
     const part = element(
       'button',
       { type: 'button', class: 'part', title: scene.materials[material]?.name },
       element('i', { class: 'swatch' }),
       element('span', {}, name),
     );
-    part.addEventListener('click', () =>
-      selection.choose({ material: assignedMaterial(opened().scene, index, store.state.variant), instance: index }),
-    );
+    part.addEventListener('click', (event) => this.#choose(index, event));
     const eye = element('button', {
       type: 'button',
       class: 'eye',
@@ -119,37 +124,65 @@ export class SceneTree {
     return element('li', { 'data-part': index }, part, eye);
   }
 
+  /** Chooses a part: alone, with Ctrl beside the others, with Shift with all from the last one on. */
+  #choose(index: number, { ctrlKey, metaKey, shiftKey }: Modifiers): void {
+    const { selection, opened, store } = this.#context;
+    const materialOf = (part: number) => assignedMaterial(opened().scene, part, store.state.variant);
+    const rows = [...this.#rows.keys()];
+    const [from, to] = [rows.indexOf(this.#anchor ?? index), rows.indexOf(index)];
+    const adds = ctrlKey || metaKey;
+    const former = adds ? selection.chosen : { material: 0 };
+    if (shiftKey && from >= 0) {
+      const range = rows.slice(Math.min(from, to), Math.max(from, to) + 1);
+      selection.choose(withParts(former, [...range.filter((part) => part !== index), index], materialOf));
+      return;
+    }
+    this.#anchor = index;
+    selection.choose(adds ? toggled(former, index, materialOf) : withParts(former, [index], materialOf));
+  }
+
+  /** Shows or hides a part, and with it all that are chosen where it is one of them. */
   #toggle(index: number, alone: boolean): void {
-    const { store, opened, say } = this.#context;
+    const { store, opened, say, selection } = this.#context;
     const { hidden } = store.state;
     const all = opened().scene.instances.map((_, i) => i);
     const off = hidden.includes(index);
+    const chosen = chosenParts(selection.chosen);
+    const parts = new Set(chosen.includes(index) ? chosen : [index]);
     const next = alone
-      ? hidden.length === all.length - 1 && !off
+      ? hidden.length === all.length - parts.size && !off
         ? []
-        : all.filter((i) => i !== index)
+        : all.filter((i) => !parts.has(i))
       : off
-        ? hidden.filter((i) => i !== index)
-        : [...hidden, index];
+        ? hidden.filter((i) => !parts.has(i))
+        : [...new Set([...hidden, ...parts])];
     if (next.length >= all.length) return say('The last visible part stays: there would be nothing to see.');
-    store.set({ hidden: next }, { label: alone ? 'Show only one part' : off ? 'Show part' : 'Hide part' });
+    store.set(
+      { hidden: next },
+      {
+        label: `${alone ? 'Show only' : off ? 'Show' : 'Hide'} ${parts.size > 1 ? `${parts.size} parts` : alone ? 'one part' : 'part'}`,
+      },
+    );
   }
 
   /** @param scroll Whether the chosen one comes into sight. */
   #mark(scroll = false): void {
     const { store, selection } = this.#context;
     const hidden = new Set(store.state.hidden);
+    const parts = new Set(chosenParts(selection.chosen));
     for (const [index, row] of this.#rows) {
       const off = hidden.has(index);
-      const chosen = selection.chosen.instance === index;
+      const chosen = parts.has(index);
+      const active = selection.chosen.instance === index;
       row.classList.toggle('off', off);
       row.classList.toggle('chosen', chosen);
       const [part, eye] = row.children as unknown as [HTMLElement, HTMLElement];
-      part.setAttribute('aria-current', String(chosen));
+      part.setAttribute('aria-pressed', String(chosen));
+      part.setAttribute('aria-current', String(active));
       eye.setAttribute('aria-pressed', String(!off));
       eye.replaceChildren(icon(off ? 'eyeOff' : 'eye'));
       // Not scrollIntoView, which would scroll the page as well.
-      if (chosen && scroll)
+      if (active && scroll && !row.contains(document.activeElement))
         this.#list.scrollTop +=
           row.getBoundingClientRect().top - this.#list.getBoundingClientRect().top - this.#list.clientHeight / 2;
     }
@@ -165,8 +198,18 @@ export class SceneTree {
       const next = rows[rows.indexOf(row) + step];
       const at = [...row.children].indexOf(event.target as Element);
       (next?.children[Math.max(0, at)] as HTMLElement | undefined)?.focus();
+      if (next && event.shiftKey) this.#choose(Number(next.dataset['part']), event);
       event.preventDefault();
     }
-    if (row && event.key === 'h') this.#toggle(Number(row.dataset['part']), event.altKey);
+    if (row && event.key === 'a' && (event.ctrlKey || event.metaKey)) {
+      const [first] = this.#rows.keys();
+      this.#anchor = first;
+      this.#choose([...this.#rows.keys()].at(-1) as number, { shiftKey: true, ctrlKey: false, metaKey: false });
+      event.preventDefault();
+    }
+    if (row && event.key === 'h') {
+      this.#toggle(Number(row.dataset['part']), event.altKey);
+      event.preventDefault();
+    }
   }
 }

@@ -40,6 +40,8 @@ const MOUSE: readonly (readonly [string, string])[] = [
   ['Shift or right button and drag, two fingers', 'Pan'],
   ['Wheel, pinch, + and −', 'Zoom'],
   ['Click, tap, Enter', 'Choose the part and its material'],
+  ['Ctrl or Shift and click', 'Choose one more part, or one less'],
+  ['Ctrl or Shift while dragging a handle', 'Move, turn or scale in steps'],
   ['Drag a preset to the image', 'Put it on the part under it'],
   ['Drop files', 'Model, environment, .mtlx; an image on a parameter'],
 ];

@@ -26,6 +26,8 @@ export function wireTabs(onChange: (tab: Tab) => void): (tab: Tab) => void {
       choose(shown[(at + step + shown.length) % shown.length] as Tab, true);
     });
   }
+  // A wide window has the scene beside the image, without a tab.
+  addEventListener('resize', () => buttons.find(({ tabIndex }) => tabIndex === 0)?.offsetParent ?? choose('material'));
   choose((document.body.dataset['tab'] as Tab | undefined) ?? 'material');
   return choose;
 }

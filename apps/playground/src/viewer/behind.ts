@@ -16,6 +16,8 @@ export class Behind {
   readonly #stage: HTMLElement;
   readonly #canvas: HTMLCanvasElement;
   #backdrop: Backdrop | undefined;
+  /** For images that are not on the screen: it keeps the blurred environment from frame to frame. */
+  #aside: Backdrop | undefined;
   #asked = 0;
 
   constructor(stage: HTMLElement, canvas: HTMLCanvasElement) {
@@ -55,7 +57,7 @@ export class Behind {
   ): Promise<SavedBehind | undefined> {
     if (state.background !== 'blurred') return this.saved(state);
     const { Backdrop } = await import('./backdrop');
-    const backdrop = new Backdrop(document.createElement('canvas'));
+    const backdrop = (this.#aside ??= new Backdrop(document.createElement('canvas')));
     const { backgroundBlur, exposure, toneMap } = state;
     backdrop.draw(environment, backgroundBlur, camera, aspect, { exposure, toneMap });
     return backdrop.image && { image: backdrop.image };

@@ -12,6 +12,7 @@ import { fitCamera } from '@glanz/viewer/fit-camera';
 import { OrbitRig, type Orbit } from '@glanz/viewer/orbit';
 import type { OrbitView, State } from '../state/state';
 import type { Store } from '../state/store';
+import { placedTransform } from './placement';
 import { directionOf, STANDARD_VIEWS, withLens, type StandardView } from './lens';
 
 /** Seconds in which 63 % of a movement is done; none of it where the user asks for less motion. */
@@ -31,7 +32,8 @@ const viewOf = ({ theta, phi, radius, target, zoom = 1 }: Orbit): OrbitView => (
   pitch: Math.PI / 2 - phi,
   zoom,
 });
-const orbitOf = ({ target, distance, yaw, pitch, zoom }: OrbitView): Orbit => ({
+/** An orbit as the viewer's packages have it. */
+export const orbitOf = ({ target, distance, yaw, pitch, zoom }: OrbitView): Orbit => ({
   target,
   radius: distance,
   theta: yaw,
@@ -95,6 +97,11 @@ export class CameraRig {
     if (own) this.follow(true);
   }
 
+  /** Bounds of a scene that this rig looks at; undefined for another. A pose keeps the bounds of the model at rest. */
+  boundsOf(scene: Scene): SceneBounds | undefined {
+    return scene === this.#scene ? this.#bounds : undefined;
+  }
+
   /** Whether the camera is on its way to where the state wants it. */
   get moving(): boolean {
     return this.#follower?.moving ?? false;
@@ -137,6 +144,12 @@ export class CameraRig {
     );
   }
 
+  /** Where the camera is that the state asks for. */
+  get view(): OrbitView {
+    const { state } = this.#store;
+    return state.orbit ?? viewOf(this.#orbit(state, this.#scene as Scene).goal);
+  }
+
   /** Orbits, pans or zooms by user input. */
   move(change: (rig: OrbitRig) => void): void {
     if (!this.#scene) return;
@@ -155,13 +168,18 @@ export class CameraRig {
     this.#frame(this.#scene, directionOf(STANDARD_VIEWS[view]));
   }
 
-  /** Brings one part, or all of the model, into the image without turning. */
-  frame(instance: number | undefined): void {
+  /** Brings these parts, or all of the model where there are none, into the image without turning. */
+  frame(parts: readonly number[]): void {
     const scene = this.#scene;
     if (!scene) return;
     const m = this.camera().transform;
-    const part = instance === undefined ? undefined : scene.instances[instance];
-    this.#frame(part ? { ...scene, instances: [{ ...part, visible: true }] } : scene, [
+    const framed = parts.flatMap((index) => {
+      const part = scene.instances[index];
+      return part
+        ? [{ ...part, visible: true, transform: placedTransform(scene, index, this.#store.state.moves) }]
+        : [];
+    });
+    this.#frame(framed.length > 0 ? { ...scene, instances: framed } : scene, [
       m[8] as number,
       m[9] as number,
       m[10] as number,

@@ -5,19 +5,24 @@ import {
   type Material,
   type Mesh,
   type Scene,
+  type SceneBounds,
   type Texture,
   type TexturedParameter,
 } from '@glanz/scene';
 import type { State } from '../state/state';
+import { placedTransform } from './placement';
 
 /** Half the floor's width in radii of the model: so far that its edge is out of the light's reach. */
 const FLOOR_RADII = 40;
 
-const FLOOR = 'Floor (shadows only)';
+/** Name of the floor's mesh, material and instance. */
+export const FLOOR = 'Floor (shadows only)';
 
-/** A square under the model, normal up. */
-function floorMesh(scene: Scene): Mesh {
-  const { min, max } = sceneBounds(scene);
+/** What the floor is made of. */
+export const FLOOR_PARAMETERS = { base_color: [0.5, 0.5, 0.5], specular_weight: 0 } as const;
+
+/** A square under the model, normal up. @param bounds Of the model. */
+export function floorMesh({ min, max }: SceneBounds): Mesh {
   const radius = 0.5 * Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]) || 1;
   const [x, z] = [(min[0] + max[0]) / 2, (min[2] + max[2]) / 2];
   const half = FLOOR_RADII * radius;
@@ -48,8 +53,14 @@ function floorMesh(scene: Scene): Mesh {
  * the model brought is shared, not copied, and indices of its parts stay.
  *
  * @param scene As loaded.
+ * @param bounds Of the model, where they are known: finding them reads all vertices.
  */
-export function composeScene(scene: Scene, state: State, environment: Environment | undefined): Scene {
+export function composeScene(
+  scene: Scene,
+  state: State,
+  environment: Environment | undefined,
+  bounds?: SceneBounds,
+): Scene {
   const hidden = new Set(state.hidden);
   const images: Image[] = [...scene.images];
   const textures: Texture[] = [...scene.textures];
@@ -78,14 +89,20 @@ export function composeScene(scene: Scene, state: State, environment: Environmen
     materials,
     meshes: [...scene.meshes],
     instances: scene.instances.map((instance, index) =>
-      hidden.has(index) ? { ...instance, visible: false } : instance,
+      hidden.has(index) || state.moves[index]
+        ? {
+            ...instance,
+            transform: placedTransform(scene, index, state.moves),
+            ...(hidden.has(index) ? { visible: false } : {}),
+          }
+        : instance,
     ),
   };
   delete composed.environment;
   if (environment) composed.environment = environment;
   if (state.floor) {
-    composed.materials.push({ name: FLOOR, parameters: { base_color: [0.5, 0.5, 0.5], specular_weight: 0 } });
-    composed.meshes.push(floorMesh(scene));
+    composed.materials.push({ name: FLOOR, parameters: FLOOR_PARAMETERS });
+    composed.meshes.push(floorMesh(bounds ?? sceneBounds(scene)));
     composed.instances.push({
       name: FLOOR,
       mesh: composed.meshes.length - 1,

@@ -3,6 +3,7 @@ import type { Environment, Scene } from '@glanz/scene';
 import type { State, Values } from '../state/state';
 import type { CameraRig } from './camera-rig';
 import { composeScene, needsTracer } from './compose';
+import { placedTransform } from './placement';
 import type { Session, Shown } from './session';
 
 /** What effects need to know of the page. */
@@ -26,7 +27,7 @@ export const filmBackground = ({ background }: Pick<State, 'background'>): 'envi
 /** What a tracer is made from for a state. */
 export function shownFor(scene: Scene, state: State, host: Pick<EffectsHost, 'rig' | 'environment'>): Shown {
   return {
-    scene: composeScene(scene, state, host.environment(state, scene)),
+    scene: composeScene(scene, state, host.environment(state, scene), host.rig.boundsOf(scene)),
     camera: host.rig.camera(state, scene),
     maxDepth: state.maxDepth,
     background: filmBackground(state),
@@ -88,12 +89,19 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
   const hidden = new Set(next.hidden);
   const wasHidden = new Set(before.hidden);
   const flipped = [...new Set([...hidden, ...wasHidden])].filter((index) => hidden.has(index) !== wasHidden.has(index));
-  if (needsTracer(next, before) || flipped.length > MANY) {
+  const moved = [...new Set([...Object.keys(next.moves), ...Object.keys(before.moves)])]
+    .filter((index) => next.moves[index] !== before.moves[index])
+    .map(Number);
+  if (needsTracer(next, before) || flipped.length > MANY || moved.length > MANY) {
     present(scene, host.state, host).catch(onError);
     return;
   }
   for (const index of flipped)
     session.edit(`visible ${index}`, (tracer) => tracer.setVisibility(index, !hidden.has(index)));
+  for (const index of moved)
+    session.edit(`move ${index}`, (tracer) =>
+      tracer.setInstanceTransform(index, placedTransform(host.scene() ?? scene, index, next.moves)),
+    );
   if (changed('materials')) {
     for (const index of new Set([...Object.keys(next.materials), ...Object.keys(before.materials)])) {
       if (next.materials[index] === before.materials[index]) continue;

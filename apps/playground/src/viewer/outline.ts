@@ -2,23 +2,25 @@ import type { Session } from './session';
 
 const NO_PART = 0xffffffff;
 
-/** Draws a line around a part over the image, from the layer of parts. */
+/** Draws a line around parts over the image, from the layer of parts. */
 export class Outline {
   readonly #canvas: HTMLCanvasElement;
   readonly #session: Session;
-  #instance: number | undefined;
+  #parts: readonly number[] = [];
   #asked = 0;
+  /** Parts are read one time after the other. */
+  #reading: Promise<unknown> | undefined;
 
   constructor(canvas: HTMLCanvasElement, session: Session) {
     this.#canvas = canvas;
     this.#session = session;
   }
 
-  /** @param instance Index in the scene; undefined takes the line away. */
-  show(instance: number | undefined): void {
-    this.#instance = instance;
+  /** @param parts Indices in the scene; none take the line away. */
+  show(parts: readonly number[]): void {
+    this.#parts = parts;
     this.clear();
-    if (instance !== undefined) void this.#draw();
+    if (parts.length > 0) void this.#draw();
   }
 
   /** The image has changed under the line. */
@@ -31,18 +33,22 @@ export class Outline {
 
   /** The image stands still: the line comes back. */
   settled(): void {
-    if (this.#instance !== undefined && this.#canvas.dataset['part'] === undefined) void this.#draw();
+    if (this.#parts.length > 0 && this.#canvas.dataset['part'] === undefined) void this.#draw();
   }
 
   async #draw(): Promise<void> {
     const { tracer } = this.#session;
-    const instance = this.#instance;
-    if (!tracer || instance === undefined || tracer.samples === 0) return;
+    const parts = new Set(this.#parts);
+    if (!tracer || parts.size === 0 || tracer.samples === 0) return;
     const asked = ++this.#asked;
+    await this.#reading;
+    if (asked !== this.#asked) return;
     const { width, height } = tracer;
     let ids: Uint32Array;
     try {
-      ids = await tracer.read('objectId');
+      const reading = tracer.read('objectId');
+      this.#reading = reading.catch(() => undefined);
+      ids = await reading;
     } catch {
       // The device was lost: so is the image that the line belongs to.
       return;
@@ -54,7 +60,12 @@ export class Outline {
     if (!context) return;
     const image = context.createImageData(width, height);
     const inside = (x: number, y: number) =>
-      x >= 0 && y >= 0 && x < width && y < height && ids[y * width + x] === instance && ids[y * width + x] !== NO_PART;
+      x >= 0 &&
+      y >= 0 &&
+      x < width &&
+      y < height &&
+      ids[y * width + x] !== NO_PART &&
+      parts.has(ids[y * width + x] as number);
     for (let y = 0; y < height; y++) {
       for (let x = 0; x < width; x++) {
         if (inside(x, y) || !(inside(x - 1, y) || inside(x + 1, y) || inside(x, y - 1) || inside(x, y + 1))) continue;
@@ -62,6 +73,6 @@ export class Outline {
       }
     }
     context.putImageData(image, 0, 0);
-    this.#canvas.dataset['part'] = String(instance);
+    this.#canvas.dataset['part'] = [...parts].join(' ');
   }
 }

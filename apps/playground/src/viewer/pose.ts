@@ -1,6 +1,7 @@
 import type { PathTracer } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 import type { State, Values } from '../state/state';
+import { placedTransform } from './placement';
 
 /** So many parts at once are moved by a new tracer rather than by an edit each. */
 const MANY = 200;
@@ -48,17 +49,22 @@ export function posedScene(scene: Scene, pose: Scene): Scene | undefined {
 export const movesMany = (before: Scene, after: Scene): boolean =>
   after.instances.filter(({ transform }, i) => !same(transform, before.instances[i]?.transform ?? [])).length > MANY;
 
-/** Brings a tracer from whatever pose it is in to that of a scene; values that the user has edited stay the user's. */
+/**
+ * Brings a tracer from whatever pose it is in to that of a scene; values that the user has edited stay the user's, and
+ * parts that the user has moved are moved from where the pose has them.
+ */
 export async function applyPose(
   tracer: PathTracer,
   scene: Scene,
-  { materials }: Pick<State, 'materials'>,
+  { materials, moves }: Pick<State, 'materials' | 'moves'>,
 ): Promise<void> {
   const shown = tracer.scene;
   for (const [i, mesh] of scene.meshes.entries())
     if (!same(mesh.positions, shown.meshes[i]?.positions ?? [])) await tracer.replaceMesh(i, mesh);
-  for (const [i, { transform }] of scene.instances.entries())
+  for (const i of scene.instances.keys()) {
+    const transform = placedTransform(scene, i, moves);
     if (!same(transform, shown.instances[i]?.transform ?? [])) await tracer.setInstanceTransform(i, transform);
+  }
   for (const [i, light] of scene.lights.entries()) if (!alike(light, shown.lights[i])) await tracer.setLight(i, light);
   for (const [i, material] of scene.materials.entries()) {
     const requested: Values = { ...material.parameters, ...materials[i] };

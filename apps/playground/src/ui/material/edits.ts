@@ -24,24 +24,25 @@ function tidied(material: Material, edit: Values): Values {
   ) as Values;
 }
 
-function withEdit(state: State, index: number, edit: Values): State['materials'] {
-  const { [index]: _, ...others } = state.materials;
+function withEdit(materials: State['materials'], index: number, edit: Values): State['materials'] {
+  const { [index]: _, ...others } = materials;
   return Object.keys(edit).length > 0 ? { ...others, [index]: edit } : others;
 }
 
-/** Changes parameters of a material as one step of undo. */
-export function editMaterial(
+/** Changes parameters of materials as one step of undo. @param indices Of the materials that are changed. */
+export function editMaterials(
   store: Store<State>,
-  material: Material,
-  index: number,
+  materials: readonly Material[],
+  indices: readonly number[],
   values: Values,
   label: string,
 ): void {
-  const { state } = store;
-  store.set(
-    { materials: withEdit(state, index, tidied(material, { ...state.materials[index], ...values })) },
-    { label, merge: `material ${index} ${Object.keys(values).join(' ')}` },
-  );
+  let edits = store.state.materials;
+  for (const index of indices) {
+    const material = materials[index];
+    if (material) edits = withEdit(edits, index, tidied(material, { ...edits[index], ...values }));
+  }
+  store.set({ materials: edits }, { label, merge: `material ${indices.join()} ${Object.keys(values).join(' ')}` });
 }
 
 /** Puts an image on a parameter, or takes it away. */
@@ -76,45 +77,57 @@ export function slotState(
   return material.textures?.[parameter as TexturedParameter] ? { name: 'the model’s', own: false } : undefined;
 }
 
-/** Makes a material another one altogether: what it does not say is at the default, and images of the old one go. */
-export function replaceMaterial(
+/**
+ * Makes materials another one altogether: what it does not say is at the default, and images of the old one go.
+ *
+ * @param indices Of the materials that are replaced.
+ * @param slots Images of the new one, by parameter.
+ */
+export function replaceMaterials(
   store: Store<State>,
-  material: Material,
-  index: number,
+  materials: readonly Material[],
+  indices: readonly number[],
   values: Values,
   label: string,
   slots: Readonly<Record<string, Slot>> = {},
 ): void {
   const { state } = store;
-  const defaults = Object.fromEntries(
-    Object.keys(material.parameters).map((name) => [
-      name,
-      OPENPBR_PARAMETER_SPECS[name as OpenPbrParameterName].default,
-    ]),
-  ) as Values;
-  const gone = Object.keys(material.textures ?? {}).filter((name) => !name.startsWith('geometry_'));
-  const kept = Object.entries(state.slots).filter(([key]) => !key.startsWith(`${index}/`));
-  const next = [...kept, ...gone.map((name) => [`${index}/${name}`, null] as const), ...Object.entries(slots)];
+  let edits = state.materials;
+  let next = Object.entries(state.slots);
+  for (const index of indices) {
+    const material = materials[index];
+    if (!material) continue;
+    const defaults = Object.fromEntries(
+      Object.keys(material.parameters).map((name) => [
+        name,
+        OPENPBR_PARAMETER_SPECS[name as OpenPbrParameterName].default,
+      ]),
+    ) as Values;
+    edits = withEdit(edits, index, tidied(material, { ...defaults, ...values }));
+    const gone = Object.keys(material.textures ?? {}).filter((name) => !name.startsWith('geometry_'));
+    next = [
+      ...next.filter(([key]) => !key.startsWith(`${index}/`)),
+      ...gone.map((name): [string, Slot] => [`${index}/${name}`, null]),
+      ...Object.entries(slots).map(([name, slot]): [string, Slot] => [`${index}/${name}`, slot]),
+    ];
+  }
   const changed =
     next.length !== Object.keys(state.slots).length || next.some(([key, slot]) => state.slots[key] !== slot);
   store.set(
-    {
-      materials: withEdit(state, index, tidied(material, { ...defaults, ...values })),
-      ...(changed ? { slots: Object.fromEntries(next) } : {}),
-    },
-    { label, merge: `material ${index} ${label}` },
+    { materials: edits, ...(changed ? { slots: Object.fromEntries(next) } : {}) },
+    { label, merge: `material ${indices.join()} ${label}` },
   );
 }
 
-/** Back to what the model says. */
-export function resetMaterial(store: Store<State>, index: number): void {
+/** Back to what the model says. @param indices Of the materials that are reset. */
+export function resetMaterials(store: Store<State>, indices: readonly number[]): void {
   const { state } = store;
-  const slots = Object.entries(state.slots).filter(([key]) => !key.startsWith(`${index}/`));
+  const slots = Object.entries(state.slots).filter(([key]) => !indices.some((index) => key.startsWith(`${index}/`)));
   store.set(
     {
-      materials: withEdit(state, index, {}),
+      materials: indices.reduce((edits, index) => withEdit(edits, index, {}), state.materials),
       ...(slots.length === Object.keys(state.slots).length ? {} : { slots: Object.fromEntries(slots) }),
     },
-    { label: 'Reset material' },
+    { label: indices.length > 1 ? 'Reset materials' : 'Reset material' },
   );
 }

@@ -5,7 +5,9 @@ import type { Context } from '../context';
 import { element } from '../elements';
 import { checkField, colourField, sliderField, type Field } from '../fields';
 import { actingParameters } from './acting-parameters';
-import { currentValue, editMaterial, loadedValue, resetMaterial } from './edits';
+import { chosenMaterials } from '../../viewer/assigned-material';
+import { chosenParts, type Chosen } from '../../selection';
+import { currentValue, editMaterials, loadedValue, resetMaterials } from './edits';
 import { textureSlot } from './texture-slot';
 
 const GROUP_TITLES: Readonly<Record<string, string>> = { thin_film: 'Thin film' };
@@ -47,7 +49,7 @@ export class MaterialInspector {
     this.#context = context;
     const { selection, store, onModel } = context;
     this.#select.addEventListener('change', () => selection.choose({ material: Number(this.#select.value) }));
-    this.#reset.addEventListener('click', () => resetMaterial(store, this.#index));
+    this.#reset.addEventListener('click', () => resetMaterials(store, this.#targets()));
     this.element = element(
       'div',
       {},
@@ -62,7 +64,7 @@ export class MaterialInspector {
       this.#fields,
       element('div', { class: 'section' }, this.#reset),
     );
-    selection.subscribe(({ material, instance }) => this.#show(material, instance));
+    selection.subscribe((chosen) => this.#show(chosen));
     onModel(() => this.#fill());
     store.subscribe((next, before) => {
       if (next.materials !== before.materials || next.slots !== before.slots) this.#refresh();
@@ -75,11 +77,30 @@ export class MaterialInspector {
     this.#select.replaceChildren(
       ...scene.materials.map(({ name }, index) => element('option', { value: index }, name || `Material ${index + 1}`)),
     );
-    this.#show(0, undefined);
+    this.#show({ material: 0 });
     this.#part.textContent = 'Click a part of the image to choose its material.';
   }
 
-  #show(index: number, instance: number | undefined): void {
+  /** Materials that edits apply to. */
+  #targets(): readonly number[] {
+    const { selection, opened, store } = this.#context;
+    const materials = chosenMaterials(opened().scene, selection.chosen, store.state.variant);
+    return materials.includes(this.#index) ? materials : [this.#index];
+  }
+
+  /** What is chosen, in words. */
+  #picked(chosen: Chosen): string {
+    const { scene } = this.#context.opened();
+    const [part, ...others] = chosenParts(chosen);
+    if (part === undefined) return '';
+    const name = scene.instances[part]?.name || `part ${part + 1}`;
+    if (others.length === 0) return `Picked: ${name}`;
+    const materials = this.#targets().length;
+    return `Picked: ${name} and ${others.length} more, ${materials === 1 ? 'one material' : `${materials} materials`}; edits apply to all.`;
+  }
+
+  #show(chosen: Chosen): void {
+    const index = chosen.material;
     const { scene } = this.#context.opened();
     const material = scene.materials[index];
     this.#index = index;
@@ -87,8 +108,8 @@ export class MaterialInspector {
     this.#dots.clear();
     if (!material) return this.#fields.replaceChildren();
     this.#select.value = String(index);
-    this.#part.textContent =
-      instance === undefined ? '' : `Picked: ${scene.instances[instance]?.name || `part ${instance + 1}`}`;
+    this.#part.textContent = this.#picked(chosen);
+    this.#reset.textContent = this.#targets().length > 1 ? 'Reset these materials' : 'Reset this material';
     const groups = new Map<string, HTMLElement[]>();
     for (const info of Object.values(OPENPBR_PARAMETERS) as OpenPbrParameterInfo[]) {
       groups.set(info.group, [...(groups.get(info.group) ?? []), this.#row(info, material)]);
@@ -138,7 +159,9 @@ export class MaterialInspector {
     if (type === 'vector3') return undefined;
     const { store } = this.#context;
     const index = this.#index;
-    const onInput = (value: unknown) => editMaterial(store, material, index, { [name]: value } as Values, title);
+    const { materials } = this.#context.opened().scene;
+    const onInput = (value: unknown) =>
+      editMaterials(store, materials, this.#targets(), { [name]: value } as Values, title);
     const common = { id: `parameter-${name}`, label: title, hint: `${name}: ${doc}`, onInput };
     const value = currentValue(store.state, material, index, name) as unknown;
     const initial = loadedValue(material, name) as unknown;
@@ -180,6 +203,10 @@ export class MaterialInspector {
       if (Object.hasOwn(edit, name) || Object.hasOwn(store.state.slots, `${this.#index}/${name}`)) changed.add(group);
     }
     for (const [group, dot] of this.#dots) dot.hidden = !changed.has(group);
-    this.#reset.disabled = changed.size === 0;
+    this.#reset.disabled = !this.#targets().some(
+      (index) =>
+        Object.hasOwn(store.state.materials, index) ||
+        Object.keys(store.state.slots).some((key) => key.startsWith(`${index}/`)),
+    );
   }
 }

@@ -1,7 +1,8 @@
 import { OPENPBR_PRESET_NAMES, openPbrPreset, type OpenPbrPresetName } from '@glanz/openpbr/presets';
 import type { Context } from '../context';
 import { element } from '../elements';
-import { replaceMaterial } from './edits';
+import { chosenMaterials } from '../../viewer/assigned-material';
+import { replaceMaterials } from './edits';
 
 const PRESET_IMAGES: Readonly<Record<string, string>> = import.meta.glob('../../../../docs/public/presets/*.webp', {
   eager: true,
@@ -18,11 +19,11 @@ const title = (name: string) => name.charAt(0).toUpperCase() + name.slice(1).rep
 /** Lengths of the examples are plausible as centimetres. */
 const UNIT = 0.01;
 
-/** Puts a preset on a material of the scene. */
-export function applyPreset({ store, opened }: Context, index: number, name: string): void {
-  const material = opened().scene.materials[index];
-  if (material && (OPENPBR_PRESET_NAMES as readonly string[]).includes(name))
-    replaceMaterial(store, material, index, openPbrPreset(name as OpenPbrPresetName, { unit: UNIT }), title(name));
+/** Puts a preset on materials of the scene. */
+export function applyPreset({ store, opened }: Context, indices: readonly number[], name: string): void {
+  if (!(OPENPBR_PRESET_NAMES as readonly string[]).includes(name)) return;
+  const values = openPbrPreset(name as OpenPbrPresetName, { unit: UNIT });
+  replaceMaterials(store, opened().scene.materials, indices, values, title(name));
 }
 
 /** All presets as images: a click puts one on the chosen material, a drag on the part where it ends. */
@@ -53,7 +54,10 @@ export function presetGrid(context: Context): HTMLElement {
       sphere,
       element('span', {}, title(name)),
     );
-    button.addEventListener('click', () => applyPreset(context, context.selection.chosen.material, name));
+    button.addEventListener('click', () => {
+      const { opened, selection, store } = context;
+      applyPreset(context, chosenMaterials(opened().scene, selection.chosen, store.state.variant), name);
+    });
     button.addEventListener('dragstart', (event) => event.dataTransfer?.setData(PRESET_TYPE, name));
     grid.append(button);
   }

@@ -1,0 +1,80 @@
+import type { BehindFor } from '../output/render';
+import { download, fileName, imageAsExr, imageAsPng, type Behind } from '../output/save';
+import type { Context } from './context';
+import { byId, element } from './elements';
+import { item } from './menu-item';
+
+/** Images, models and materials to keep. */
+export function exportMenu(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): HTMLElement[] {
+  const { session, store, opened, selection, fail } = context;
+  const name = () => fileName(opened().title);
+  const render = async (format?: string) => {
+    const { openRenderDialog } = await import('../output/render');
+    byId('export-menu').hidePopover();
+    openRenderDialog(context, behindFor, format);
+  };
+  const png = (bits: 8 | 16) => async () => {
+    const { tracer, current } = session;
+    const { exposure, toneMap } = store.state;
+    // While something moves, the film is that of the preview, which may be much smaller than the screen.
+    if (!tracer || !current) return render(bits === 8 ? 'png' : 'png-16');
+    const bytes = await imageAsPng(session.engine, tracer, { exposure, toneMap }, bits, behind());
+    download(bytes, `${name()}.png`, 'image/png');
+  };
+  return [
+    element('h2', {}, 'Image'),
+    item('render-image', 'Render image …', 'At any size, to a file or the clipboard', () => render(), fail),
+    item('save-png', 'Save PNG', '8 bits, as on the screen', png(8), fail),
+    item('save-png-16', 'Save 16-bit PNG', 'Tone-mapped, for retouching', png(16), fail),
+    item(
+      'save-exr',
+      'Save EXR',
+      'Linear light, with all layers and lights',
+      async () => {
+        if (!session.tracer || !session.current) return render('exr');
+        download(await imageAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
+      },
+      fail,
+    ),
+    element('h2', {}, 'Video'),
+    item(
+      'record-video',
+      'Record video …',
+      'A turntable, an animation or a camera walk, as MP4 or WebM',
+      async () => {
+        const { openVideoDialog } = await import('../output/video');
+        byId('export-menu').hidePopover();
+        openVideoDialog(context, behindFor);
+      },
+      fail,
+    ),
+    element('h2', {}, 'Model'),
+    item(
+      'save-gltf',
+      'Save glTF',
+      'The model with its materials as edited',
+      async () => {
+        const { modelAsGltf } = await import('../output/gltf-materials');
+        const { bytes, extension } = await modelAsGltf(opened(), store.state);
+        download(bytes, `${name()}-edited.${extension}`, extension === 'glb' ? 'model/gltf-binary' : 'model/gltf+json');
+      },
+      fail,
+    ),
+    item(
+      'save-mtlx',
+      'Save MaterialX',
+      'The chosen material as .mtlx',
+      async () => {
+        const { materialAsMaterialX } = await import('../output/materialx');
+        const { scene } = opened();
+        const { material } = selection.chosen;
+        download(
+          materialAsMaterialX(scene, store.state, material),
+          `${fileName(scene.materials[material]?.name ?? 'material')}.mtlx`,
+          'application/xml',
+        );
+      },
+      fail,
+    ),
+  ];
+}

@@ -1,0 +1,93 @@
+import type { CodeKind } from '../output/snippets';
+import { encodeLink, linkContent, LONGEST_LINK, type LinkContent } from '../state/link';
+import { textForSender } from '../state/link-texts';
+import type { Context } from './context';
+import { byId, element } from './elements';
+import { item } from './menu-item';
+
+/** What a link to the view as it is holds. */
+const contentOf = ({ opened, store, environments }: Context): LinkContent =>
+  linkContent(opened().name, store.state, environments.fileName);
+
+/** What a link to the view as it is leaves out, in words; empty where it holds everything. */
+const leftOutOf = (context: Context): string =>
+  textForSender(contentOf(context), context.opened().request.kind === 'files');
+
+/** The address of the view as it is. */
+async function linkTo(context: Context): Promise<string> {
+  const link = await encodeLink(contentOf(context));
+  return `${location.origin}${location.pathname}#${link}`;
+}
+
+async function copy(text: string, say: (text: string) => void, what: string, more = ''): Promise<void> {
+  await navigator.clipboard.writeText(text);
+  say(`${what} is on the clipboard. ${more}`.trim());
+}
+
+const CODE_KINDS: readonly (readonly [CodeKind, string])[] = [
+  ['renderer', 'Renderer, TypeScript'],
+  ['viewer', 'Viewer, TypeScript'],
+  ['html', 'Element, HTML'],
+  ['react', 'React component'],
+];
+
+/** A link to the view, and programs that show the same. */
+export function shareMenu(context: Context): HTMLElement[] {
+  const { say, fail } = context;
+  const kind = element(
+    'select',
+    { id: 'code-kind', 'aria-label': 'Code for' },
+    ...CODE_KINDS.map(([value, title]) => element('option', { value }, title)),
+  );
+  const code = element('pre', {
+    class: 'snippet',
+    id: 'snippet',
+    role: 'group',
+    tabindex: 0,
+    'aria-label': 'Code that makes this image',
+  });
+  const note = element('p', { class: 'note', id: 'share-note' });
+  const write = () =>
+    void import('../output/snippets').then(
+      ({ codeFor }) => (code.textContent = codeFor(kind.value as CodeKind, context)),
+      fail,
+    );
+  const refresh = () => {
+    note.textContent = leftOutOf(context);
+    write();
+  };
+  byId('share-menu').addEventListener('beforetoggle', (event) => {
+    if ((event as ToggleEvent).newState === 'open') refresh();
+  });
+  refresh();
+  kind.addEventListener('change', write);
+  return [
+    element('h2', {}, 'Link'),
+    item(
+      'copy-link',
+      'Copy link',
+      'Camera, materials, light and settings',
+      async () => {
+        const link = await linkTo(context);
+        await copy(
+          link,
+          say,
+          link.length > LONGEST_LINK ? 'The link, which is too long for some programs,' : 'The link',
+          leftOutOf(context),
+        );
+      },
+      fail,
+    ),
+    note,
+    element('h2', {}, 'Code'),
+    item(
+      'copy-code',
+      'Copy code',
+      'A program that shows the same',
+      () => copy(code.textContent ?? '', say, 'The code'),
+      fail,
+    ),
+    kind,
+    code,
+  ];
+}
