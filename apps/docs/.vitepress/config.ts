@@ -2,14 +2,17 @@ import { existsSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitepress';
+import { basisModule } from '../../../tools/pipeline/basis-module.mjs';
 import { publishedModules } from '../../../tools/pipeline/published-source.mjs';
 import { weslModules } from '../../../tools/pipeline/wesl.mjs';
 import { apiReference } from './api';
 import { emptyHeaders } from './empty-headers';
+import { foldTables } from './fold-tables';
 import { buildGalleryModels } from './gallery-models';
 import { packageFacts, packageLine } from './package-facts';
 import { buildPlayground } from './playground';
 import { readmeLinks } from './readme-links';
+import { sourceWorkers } from './source-workers';
 
 // VitePress expands what data loaders watch from the working directory. Below apps/docs the patterns begin with `../..`,
 // which its `**/node_modules/**` does not match, and it would scan each node_modules of the repository, links included.
@@ -85,7 +88,7 @@ export default defineConfig({
           .replace(/[^\p{L}\p{N}\s_-]+/gu, '')
           .replace(/\s+/g, '-'),
     },
-    config: (md) => void md.use(readmeLinks).use(packageLine).use(emptyHeaders),
+    config: (md) => void md.use(readmeLinks).use(packageLine).use(emptyHeaders).use(foldTables),
     // The usual ones have comments and keywords too faint for the ground of code blocks.
     theme: { light: 'github-light-high-contrast', dark: 'github-dark-high-contrast' },
   },
@@ -99,7 +102,11 @@ export default defineConfig({
     // Examples and demos run from the packages' sources; the pages need no build of them.
     resolve: { conditions: ['@glanz/source'] },
     ssr: { noExternal: [/^@glanz\//], resolve: { conditions: ['@glanz/source'] } },
-    plugins: [weslModules(), publishedModules()],
+    plugins: [weslModules(), publishedModules(), basisModule()],
+    worker: {
+      format: 'es',
+      plugins: () => [sourceWorkers(), weslModules(), publishedModules(), basisModule()],
+    },
     build: { target: 'es2022', chunkSizeWarningLimit: 700 },
     server: { fs: { allow: [dirname(fileURLToPath(new URL('../../..', import.meta.url)))] } },
   },
@@ -128,6 +135,7 @@ export default defineConfig({
           { text: 'A live image', link: '/live' },
           { text: 'Playground', link: PLAYGROUND, target: '_self' },
           { text: 'Where it stands', link: '/guide/status' },
+          { text: 'Release 0.1.0', link: '/releases/0.1.0' },
           { text: 'Conventions', link: '/guide/conventions' },
           { text: 'Names and units', link: '/guide/names' },
           { text: 'Render options', link: '/guide/options' },
@@ -160,6 +168,7 @@ export default defineConfig({
           { text: 'A configurator', link: '/guide/configurator' },
           { text: 'Performance', link: '/guide/performance' },
           { text: 'Denoising', link: '/guide/denoising' },
+          { text: 'Video', link: '/guide/video' },
           { text: 'Browsers and GPUs', link: '/guide/browsers' },
           { text: 'Troubleshooting', link: '/guide/troubleshooting' },
           { text: 'Questions', link: '/guide/faq' },
@@ -184,6 +193,7 @@ export default defineConfig({
           { text: 'Presets', link: '/openpbr/presets' },
           { text: 'From glTF', link: '/openpbr/gltf' },
           { text: 'MaterialX', link: '/openpbr/materialx' },
+          { text: 'Versions', link: '/openpbr/versions' },
           { text: 'In a rasteriser', link: '/openpbr/rasteriser' },
         ],
       },

@@ -4,7 +4,10 @@ import { BvhWorkers } from '@glanz/bvh/workers';
 import { PathTracer, requestDevice } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 
-/** A path tracer that builds on other threads what this browser has not kept from an earlier visit. */
+/**
+ * A path tracer that builds hierarchies on worker threads, unless this browser
+ * has stored them on an earlier visit.
+ */
 export async function createTracer(scene: Scene): Promise<PathTracer> {
   const workers = await BvhWorkers.create();
   const hierarchies = new BlasCache(await openIndexedDbStore(), workers, {

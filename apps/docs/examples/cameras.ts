@@ -47,7 +47,8 @@ export function focusOn(tracer: PathTracer, x: number, y: number) {
 export const plan: OrthographicCamera = {
   type: 'orthographic',
   name: 'plan',
-  transform: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 5, 0, 1], // five metres up, looking down
+  // Five metres up, looking down.
+  transform: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 5, 0, 1],
   xmag: 1.6,
   ymag: 1.2,
 };
@@ -57,7 +58,8 @@ export const plan: OrthographicCamera = {
 export const around: PanoramaCamera = {
   type: 'panorama',
   name: 'around',
-  transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 1.6, 0, 1], // at eye height, its −Z along +X
+  // At eye height, its −Z along +X.
+  transform: [0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 1.6, 0, 1],
 };
 // #endregion panorama
 

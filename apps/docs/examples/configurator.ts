@@ -2,7 +2,7 @@ import type { PathTracer } from '@glanz/renderer';
 import type { Mesh, Scene } from '@glanz/scene';
 
 // #region catalogue
-/** What customers choose from. A choice names the parts that it shows, and their materials. */
+/** A choice of a customer: the parts that it shows, and their materials. */
 export interface Choice {
   readonly name: string;
   readonly shows?: readonly string[];
@@ -20,7 +20,10 @@ export const assemblies = (options: readonly Option[]) =>
 // #endregion catalogue
 
 // #region choose
-/** Shows one choice of an option and hides the others; returns the milliseconds until the image restarted. */
+/**
+ * Shows one choice of an option and hides the others; returns the milliseconds
+ * until the image restarted.
+ */
 export async function choose(
   tracer: PathTracer,
   option: Option,
@@ -42,7 +45,10 @@ export async function choose(
 // #endregion choose
 
 // #region legend
-/** A part whose shape is made on demand, such as an engraved legend: only its own hierarchy is built. */
+/**
+ * A part whose shape is made on demand, such as an engraved legend: only its
+ * own hierarchy is built.
+ */
 export const engrave = (tracer: PathTracer, mesh: Mesh) =>
   tracer.replaceMesh('legend', mesh);
 // #endregion legend
@@ -56,7 +62,10 @@ export const fromAddress = (hash: string): Record<string, string> =>
 // #endregion address
 
 // #region hidden
-/** All parts in one scene: what is hidden costs memory on the CPU only, until it is shown for the first time. */
+/**
+ * All parts in one scene: what is hidden costs memory on the CPU only, until it
+ * is shown for the first time.
+ */
 export function withHidden(scene: Scene, hidden: ReadonlySet<string>): Scene {
   return {
     ...scene,

@@ -5,7 +5,7 @@ export async function open(url: string, say: (text: string) => void) {
   try {
     return await loadGltf(url);
   } catch (error) {
-    if (!(error instanceof GlanzError)) throw error; // a fault of ours or yours: let it surface
+    if (!(error instanceof GlanzError)) throw error; // a bug: let it surface
     if (error.code === 'gltf/truncated')
       say('The download was cut off. Try again?');
     else say(error.message);

@@ -86,7 +86,8 @@ export async function withLightGroups(device: GPUDevice, scene: Scene) {
     lightGroups: 'each',
   });
   for await (const _ of tracer.render({ samples: 256 }));
-  for (const { name } of tracer.lightGroups) console.log(name); // environment, lamp, screen, …
+  // environment, lamp, screen, …
+  for (const { name } of tracer.lightGroups) console.log(name);
   await tracer.setLightGroup('lamp', { intensity: 0.5, color: [1, 0.8, 0.6] });
   return tracer.readLightGroup('lamp'); // its part of the image, RGBA
 }

@@ -35,7 +35,8 @@ export const brushed: Material = {
 
 // #region edit
 export async function repaint(tracer: PathTracer) {
-  await tracer.setMaterial('housing', { base_color: [0.8, 0.1, 0.1] }); // by name, or by index
+  // By name, or by index.
+  await tracer.setMaterial('housing', { base_color: [0.8, 0.1, 0.1] });
 }
 
 export async function repaintByName(tracer: PathTracer, color: string) {
@@ -57,7 +58,8 @@ export const labelled: Material = {
 
 // #region validate
 export function fromUser(input: Partial<OpenPbrParameters>) {
-  const { parameters, warnings } = validateParameters(input); // clamped to each parameter's range
+  // Clamped to each parameter's range.
+  const { parameters, warnings } = validateParameters(input);
   for (const { message } of warnings) console.warn(message);
   return parameters;
 }

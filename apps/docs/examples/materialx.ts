@@ -29,6 +29,7 @@ export const { document } = writeMaterialX([
 // #region preset
 export async function pour(tracer: PathTracer) {
   await tracer.setMaterial('ring', OPENPBR_PRESETS.gold);
-  await tracer.setMaterial('glass', openPbrPreset('milk', { unit: 0.01 })); // its lengths are centimetres
+  // Its lengths are centimetres.
+  await tracer.setMaterial('glass', openPbrPreset('milk', { unit: 0.01 }));
 }
 // #endregion preset

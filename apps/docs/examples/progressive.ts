@@ -65,7 +65,10 @@ export function renderUntilClicked(
 // #endregion abort
 
 // #region edits
-/** Renders for as long as the page lives; edits restart the film, and the loop continues with it. */
+/**
+ * Renders until the page is closed; edits restart the film, and the loop
+ * continues with it.
+ */
 export async function keepRendering(
   tracer: PathTracer,
   signal: AbortSignal,
@@ -123,7 +126,8 @@ export async function renderThroughLosses(
       if (saved) await tracer.restoreFilm(saved);
       for await (const { samples } of tracer.render({ samples: 256 })) {
         draw(tracer);
-        // Twice as many samples as at the last copy: few copies, and at most half of the work is lost.
+        // Twice as many samples as at the last copy: few copies, and at most
+        // half of the work is lost.
         if (samples >= 2 * (saved?.samples ?? 8))
           saved = await tracer.saveFilm();
       }

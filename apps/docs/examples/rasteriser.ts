@@ -19,7 +19,7 @@ struct Vertex { @builtin(position) position: vec4f, @location(0) at: vec2f }
 @fragment fn shade(v: Vertex) -> @location(0) vec4f {
   let z = sqrt(max(1.0 - dot(v.at, v.at), 0.0));
   if (z == 0.0) { return vec4f(0.0); }
-  // The functions of OpenPBR live in the frame of the surface: +z is the normal.
+  // OpenPBR's functions expect the shading frame: +z is the normal.
   let normal = vec3f(v.at, z);
   let tangent = normalize(vec3f(normal.z, 0.0, -normal.x));
   let frame = mat3x3f(tangent, cross(normal, tangent), normal);
@@ -28,7 +28,8 @@ struct Vertex { @builtin(position) position: vec4f, @location(0) at: vec2f }
   if (wi.z <= 0.0) { return vec4f(0.0, 0.0, 0.0, 1.0); }
   let h = normalize(wo + wi);
   let reflected = openpbr_fresnel_dielectric(look.ior, dot(wo, h));
-  let highlight = reflected * openpbr_ggx(openpbr_alpha(look.roughness, 0.0), wo, wi, h, 1.0).x;
+  let alpha = openpbr_alpha(look.roughness, 0.0);
+  let highlight = reflected * openpbr_ggx(alpha, wo, wi, h, 1.0).x;
   let body = (1.0 - reflected) * look.color * wi.z / 3.14159265;
   return vec4f(3.0 * (highlight + body), 1.0);
 }`,
@@ -36,7 +37,10 @@ struct Vertex { @builtin(position) position: vec4f, @location(0) at: vec2f }
 );
 // #endregion shader
 
-/** How the ball looks: a unit vector to the light, roughness, linear colour and index of refraction. */
+/**
+ * How the ball looks: a unit vector to the light, roughness, linear colour and
+ * index of refraction.
+ */
 export interface BallLook {
   readonly light: readonly [number, number, number];
   readonly roughness: number;

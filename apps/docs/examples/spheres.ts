@@ -1,7 +1,10 @@
 import { createScene, type Mesh, type Scene } from '@glanz/scene';
 import { studioEnvironment } from '@glanz/scene/studio';
 
-/** A sphere of radius 1 about the origin: rings of quads from pole to pole, smooth normals. */
+/**
+ * A sphere of radius 1 about the origin: rings of quads from pole to pole,
+ * smooth normals.
+ */
 export function sphere(rings = 48): Mesh {
   const columns = 2 * rings;
   const positions = new Float32Array((rings + 1) * (columns + 1) * 3);

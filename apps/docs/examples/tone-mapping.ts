@@ -31,7 +31,8 @@ export async function createView(
 
 // #region change
 export async function brighter(view: Awaited<ReturnType<typeof createView>>) {
-  await view.pass.setOptions({ exposure: 1, toneMap: 'neutral' }); // compiles without stalling, then takes over
+  // Compiles without stalling, then takes over.
+  await view.pass.setOptions({ exposure: 1, toneMap: 'neutral' });
   view.draw(); // no new samples needed
 }
 // #endregion change

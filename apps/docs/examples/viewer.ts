@@ -89,7 +89,7 @@ export function acceptDrops(viewer: Viewer): void {
   canvas.addEventListener('drop', (event) => {
     event.preventDefault();
     if (event.dataTransfer)
-      viewer.load(event.dataTransfer.files).catch(() => undefined); // reported by the error event
+      viewer.load(event.dataTransfer.files).catch(() => undefined); // 'error'
   });
 }
 // #endregion drop

@@ -102,7 +102,7 @@ function triangleGlb(): Uint8Array<ArrayBuffer> {
 const dataUrl = (bytes: Uint8Array, type: string) => `data:${type};base64,${Buffer.from(bytes).toString('base64')}`;
 
 beforeAll(async () => {
-  device = await testDevice();
+  device = await testDevice({ driver: 'swiftshader' });
 });
 afterAll(() => device?.destroy());
 

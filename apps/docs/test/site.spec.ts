@@ -2,6 +2,7 @@ import { readFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
 import { checkAccessibility, photograph } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
+import { WITHOUT_GPU } from '@glanz/browser/launch';
 import { buildSite, DIST, fileFor, serveSite, sitePages } from './site';
 import { readExport } from '../src/read-export';
 
@@ -120,13 +121,16 @@ async function inspectServed(page: Page, path: string): Promise<ReturnType<typeo
 }
 
 test('all pages load without an error, every internal link and anchor leads somewhere, and axe finds nothing, light and dark, at three widths', async ({
-  page,
-  context,
+  playwright,
+  launchOptions,
 }) => {
   // Dozens of pages, several times each.
   test.setTimeout(isFull ? 7_200_000 : 900_000);
+  // Text and axe need no GPU; a software one would take a quarter of the time to paint the pages.
+  const browser = await playwright.chromium.launch({ ...launchOptions, args: WITHOUT_GPU });
+  const page = await browser.newPage();
   const complaints = watchPage(page);
-  const parser = await context.newPage();
+  const parser = await browser.newPage();
   const pages = sitePages();
   expect(pages.length).toBeGreaterThan(25);
   expect(
@@ -161,6 +165,8 @@ test('all pages load without an error, every internal link and anchor leads some
     await page.emulateMedia({ colorScheme: looks[0]!.scheme });
     await page.setViewportSize({ width: looks[0]!.width, height: 800 });
     await page.goto(`${origin}${path}`, { waitUntil: 'load' });
+    // Tables behind a plot fold; they are looked at, too.
+    await page.locator('.result-table').evaluateAll((all) => all.forEach((one) => one.setAttribute('open', '')));
     for (const { width, scheme, axe } of looks) {
       await page.emulateMedia({ colorScheme: scheme });
       await page.setViewportSize({ width, height: 800 });
@@ -181,6 +187,7 @@ test('all pages load without an error, every internal link and anchor leads some
       const ids = anchors.get(to.pathname);
       return !ids || (to.hash !== '' && !ids.has(decodeURIComponent(to.hash.slice(1))));
     });
+  await browser.close();
   expect.soft([...new Set(lost.map(({ from, to }) => `${from} → ${to.pathname}${to.hash}`))]).toEqual([]);
   expect.soft(complaints).toEqual([]);
   expect(Object.fromEntries([...faults].map(([fault, where]) => [fault, where.slice(0, 4)]))).toEqual({});
@@ -201,11 +208,44 @@ test('the home page fetches at most 150 kB of script before the demo is asked fo
     page.on('request', hear);
     await page.goto(`${origin}${path}`, { waitUntil: 'networkidle' });
     page.off('request', hear);
+    // Nothing starts by itself on a software GPU.
+    if (path === '/') await expect(page.locator('.home-viewer')).toHaveAttribute('data-stage', 'idle');
     const bytes = [...scripts].reduce((sum, script) => sum + gzipSync(readFileSync(DIST + script)).length, 0);
     expect(scripts.size, `${path} has a script`).toBeGreaterThan(0);
     if (bytes > max) heavy.push(`${path}: ${Math.round(bytes / 1000)} kB`);
   }
   expect(heavy).toEqual([]);
+});
+
+test("the home page's viewer starts by itself on a GPU, turns under the pointer, and shows another model", async ({
+  page,
+}) => {
+  const complaints = watchPage(page);
+  // The software GPU under another name; a small window makes a small film.
+  await page.addInitScript(() =>
+    Object.defineProperty(GPUAdapter.prototype, 'info', {
+      value: { vendor: 'test', architecture: 'test', device: '', description: '', isFallbackAdapter: false },
+    }),
+  );
+  await page.setViewportSize({ width: 360, height: 900 });
+  await page.goto(`${origin}/`);
+  const live = page.locator('.home-viewer');
+  const canvas = live.locator('canvas');
+  await live.scrollIntoViewIfNeeded();
+  await expect(live).toHaveAttribute('data-stage', 'render', { timeout: 90_000 });
+  // A drag shows the canvas at once: its poster has another view.
+  const box = (await canvas.boundingBox())!;
+  const middle = [box.x + box.width / 2, box.y + box.height / 2] as const;
+  await page.mouse.move(...middle);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 60, middle[1], { steps: 4 });
+  await page.mouse.up();
+  await expect(live.locator('.live-poster')).toHaveCount(0);
+  await expect.poll(async () => (await photograph(canvas)).leading.green, { timeout: 60_000 }).toBeGreaterThan(0.1);
+  await page.getByRole('radio', { name: 'Push-buttons' }).check();
+  await expect(live.locator('.live-poster')).toHaveAttribute('src', /button-panel/);
+  await expect(live).toHaveAttribute('data-stage', 'render', { timeout: 90_000 });
+  expect(complaints).toEqual([]);
 });
 
 test('the OpenPBR page lists the table of the package', async ({ page }) => {

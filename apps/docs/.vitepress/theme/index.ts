@@ -2,6 +2,7 @@ import type { Theme } from 'vitepress';
 import { defineAsyncComponent, h } from 'vue';
 import DefaultTheme from 'vitepress/theme-without-fonts';
 import HomeGallery from './HomeGallery.vue';
+import HomeViewer from './HomeViewer.vue';
 import LiveBall from './LiveBall.vue';
 import LiveHierarchy from './LiveHierarchy.vue';
 import LiveParameters from './LiveParameters.vue';
@@ -13,7 +14,8 @@ import './style.css';
 
 export default {
   extends: DefaultTheme,
-  Layout: () => h(DefaultTheme.Layout, null, { 'home-hero-after': () => h(HomeGallery) }),
+  Layout: () =>
+    h(DefaultTheme.Layout, null, { 'home-hero-image': () => h(HomeViewer), 'home-hero-after': () => h(HomeGallery) }),
   enhanceApp({ app, router }) {
     // As the built pages say it, for those who come here by a link.
     router.onAfterRouteChange = () => {

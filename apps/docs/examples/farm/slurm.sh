@@ -7,5 +7,7 @@
 #SBATCH --time=00:30:00
 #SBATCH --signal=TERM@60
 
-# A minute before the time is over the task keeps its samples in the store; submitted again, it continues from there.
-exec glanz farm task catalogue.csv --store /mnt/farm --image "$SLURM_ARRAY_TASK_ID"
+# A minute before the time limit the task saves its samples in the store;
+# submitted again, it continues from there.
+exec glanz farm task catalogue.csv --store /mnt/farm \
+  --image "$SLURM_ARRAY_TASK_ID"
