@@ -1,5 +1,6 @@
 import { defineConfig } from 'tsup';
 import rootManifest from './package.json' with { type: 'json' };
+import { emitDeclarations } from './tools/pipeline/declarations.mjs';
 import { errorsPage } from './tools/pipeline/manifest.mjs';
 import { publishedSource } from './tools/pipeline/published-source.mjs';
 
@@ -19,6 +20,7 @@ export function glanzPackage(
     readonly directives?: boolean;
   } = {},
 ) {
+  let declarations: Record<string, string> | undefined;
   return defineConfig({
     entry: entries,
     format: ['esm'],
@@ -34,15 +36,12 @@ export function glanzPackage(
     define: page === undefined ? {} : { GLANZ_ERRORS_PAGE: JSON.stringify(page) },
     external: [...(options.external ?? [])],
     esbuildPlugins: [publishedSource],
-    // What imports of shader sources and of gl-matrix's modules are is declared in wesl.d.ts and gl-matrix.d.ts, named
-    // from the package's folder. The condition "@glanz/source" must not apply here: published declarations point at
-    // published packages.
     dts: {
-      compilerOptions: {
-        ignoreDeprecations: '6.0',
-        customConditions: [],
-        types: ['@webgpu/types', 'node', '../../wesl', '../../gl-matrix'],
+      // When tsup asks for it: tools read these recipes without building.
+      get entry() {
+        return (declarations ??= emitDeclarations(process.cwd(), entries));
       },
+      compilerOptions: { ignoreDeprecations: '6.0', customConditions: [], types: [] },
     },
   });
 }

@@ -1,6 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 import { BaseSequencer, type TestSpecification } from 'vitest/node';
+import { fastExports } from './tools/pipeline/fast-exports.mjs';
 import { weslModules } from './tools/pipeline/wesl.mjs';
 
 /** Files that take minutes begin first: alone at the end the last of them would not keep both cores busy. */
@@ -52,7 +53,7 @@ const project = (
   dir: string,
   { isolated = false, include = ['test/**/*.test.ts'], exclude = [] as string[] } = {},
 ) => ({
-  plugins: [weslModules()],
+  plugins: [weslModules(), fastExports()],
   resolve,
   // @aws-sdk has modules for bundlers under "module", which Node cannot load.
   ssr: {
@@ -76,15 +77,32 @@ const project = (
 /** Tests of the renderer that compile much of the same, and neither count that nor change the device. */
 const SHARED = [
   'adaptive',
+  'aov-chains',
+  'aovs',
   'area-lights',
+  'biased-options',
+  'camera',
+  'catcher',
+  'coat-silhouette',
   'corners',
   'delta-transmission',
   'dispersion',
   'film-state',
   'filter',
   'interiors',
+  'layers',
+  'light-eval',
+  'light-groups',
+  'light-profile',
   'light-tree',
+  'motion',
   'path-tracer',
+  'render-scale',
+  'shadow-terminator',
+  'smooth',
+  'spot-light',
+  'textured',
+  'transparent',
 ].map((name) => `test/gpu/${name}.test.ts`);
 
 export default defineConfig({

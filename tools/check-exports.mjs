@@ -88,10 +88,11 @@ export function manifestProblems({ name, short, manifest }, built, fileExists) {
   for (const output of Object.keys(built))
     if (!outputs.has(output)) say(`tsup builds "${output}", which nothing exports.`);
   for (const [dependency, range] of Object.entries({ ...manifest.dependencies, ...manifest.peerDependencies })) {
-    if (
-      dependency.startsWith('@glanz/') ? range !== 'workspace:^' : range !== 'catalog:' && !/^([\^~]|>=)?\d/.test(range)
-    )
-      say(`dependency ${dependency}: "${range}" (workspace:^ inside, catalog: outside).`);
+    const peer = manifest.dependencies?.[dependency] === undefined;
+    // Changesets publishes a major version where a peer leaves its range, which "^0.1.0" does at 0.2.0.
+    const inside = peer ? /^workspace:>=\d/ : /^workspace:\^$/;
+    if (dependency.startsWith('@glanz/') ? !inside.test(range) : range !== 'catalog:' && !/^([\^~]|>=)?\d/.test(range))
+      say(`dependency ${dependency}: "${range}" (workspace:^ inside, workspace:>=… for a peer; catalog: outside).`);
   }
   // A binding to a library needs that library; all other peers are for those who want them.
   for (const peer of Object.keys(manifest.peerDependencies ?? {}))

@@ -155,11 +155,24 @@ function checkDirectives(p, { folder }, verdicts) {
   }
 }
 
+/** Where a package says whose files it has, if not in licenses/NOTICE.txt. */
+const LICENCES = { 'denoise-weights': 'weights/ORIGIN.md' };
+
 /** The files that every tarball has, and source maps that lead to sources inside the package alone. */
 function checkFiles(p, { folder }, verdicts) {
   const dir = join(folder, 'node_modules', p.name);
   for (const file of ['README.md', 'LICENSE', 'CHANGELOG.md'])
     verdicts.expect(existsSync(join(dir, file)), `${p.name}: the tarball has no ${file}.`);
+  // Decoders and weights of others, which are under other licences.
+  const others = readdirSync(dir, { recursive: true }).filter(
+    (file) => !file.startsWith('node_modules') && /\.(wasm|tza)$|[/.](draco|basis)[.-]\w+\.js$/.test(file),
+  );
+  const said =
+    /Apache-2\.0/.test(p.manifest.license) && existsSync(join(dir, LICENCES[p.short] ?? 'licenses/NOTICE.txt'));
+  verdicts.expect(
+    others.length === 0 || said,
+    `${p.name}: the tarball has ${others[0]}, and neither "license" nor licenses/NOTICE.txt says whose it is.`,
+  );
   for (const { specifier, conditions } of entriesOf(p)) {
     const map = join(dir, `${conditions.default}.map`);
     if (!verdicts.expect(existsSync(map), `${specifier}: the tarball has no source map of ${conditions.default}.`))

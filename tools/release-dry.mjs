@@ -1,31 +1,18 @@
 // npm run release:dry — what a release would publish, without publishing: the packed tarballs in out/packages, publint
 // and attw on them, and the versions that the waiting changesets ask for.
-import { mkdirSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { statSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { checkPublished } from './check-published.mjs';
-import { bin, capture, main, root } from './pipeline/process.mjs';
+import { main, root } from './pipeline/process.mjs';
 import { packAll } from './pipeline/packed.mjs';
+import { accidentalMajors, releasePlan } from './pipeline/releases.mjs';
 import { columns } from './pipeline/report.mjs';
 import { publishedPackages } from './pipeline/workspace.mjs';
 
-/** The releases that the changesets in the repository add up to. */
-async function plannedReleases() {
-  const file = join(root, '.cache', 'release.json');
-  mkdirSync(join(root, '.cache'), { recursive: true });
-  rmSync(file, { force: true });
-  const { code, output } = await capture(process.execPath, [
-    bin('@changesets/cli', 'bin.js'),
-    'status',
-    '--output',
-    relative(root, file),
-  ]);
-  if (code !== 0) throw new Error(`changeset status failed:\n${output.trim()}`);
-  return JSON.parse(readFileSync(file, 'utf8')).releases;
-}
-
 await main(async () => {
   const packages = await packAll(join(root, 'out', 'packages'));
-  const releases = new Map((await plannedReleases()).map((release) => [release.name, release]));
+  const plan = await releasePlan();
+  const releases = new Map(plan.releases.map((release) => [release.name, release]));
   const rows = packages.map((p) => {
     const release = releases.get(p.name);
     return [
@@ -46,6 +33,11 @@ await main(async () => {
   verdicts.expect(
     without.length === 0,
     `no changeset releases ${without.map(({ name }) => name).join(', ')}, which was never released.`,
+  );
+  const majors = accidentalMajors(plan);
+  verdicts.expect(
+    majors.length === 0,
+    `no changeset asks for the major version of ${majors.join(', ')}: a peer dependency leaves its range. Open the range (">=").`,
   );
   for (const line of [...verdicts.table, ...verdicts.lines]) process.stdout.write(`${line}\n`);
   process.stdout.write(`${verdicts.passed} passed, ${verdicts.failed} failed\n`);

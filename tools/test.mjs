@@ -11,7 +11,7 @@ import { parseArgs } from 'node:util';
 import { ensureBuilt } from './pipeline/build.mjs';
 import { formatArguments } from './pipeline/format.mjs';
 import { TaskError, bin, main, root, stream } from './pipeline/process.mjs';
-import { columns } from './pipeline/report.mjs';
+import { columns, playwrightFailures, vitestFailures } from './pipeline/report.mjs';
 
 const reports = join(root, '.cache', 'reports');
 const node = (script, args, options) => stream(process.execPath, [script, ...args], options);
@@ -85,10 +85,10 @@ async function unit() {
     failed,
     skipped,
     table,
-    lines:
-      failed > numFailedTests
-        ? [report ? 'a test file or a hook failed outside of its tests: see above' : 'vitest left no report']
-        : [],
+    lines: [
+      ...(report ? vitestFailures(report, root) : ['vitest left no report']),
+      ...(report && failed > numFailedTests ? ['a test file or a hook failed outside of its tests: see above'] : []),
+    ],
   };
 }
 
@@ -108,7 +108,10 @@ async function e2e() {
     failed,
     skipped,
     table,
-    lines: failed > 0 && unexpected + flaky === 0 ? [`playwright ended with code ${code}, ${passed} tests passed`] : [],
+    lines: [
+      ...(report ? playwrightFailures(report) : []),
+      ...(failed > 0 && unexpected + flaky === 0 ? [`playwright ended with code ${code}, ${passed} tests passed`] : []),
+    ],
   };
 }
 
@@ -255,6 +258,8 @@ await main(async () => {
       })(),
     );
   const rows = [];
+  /** Failures again at the end, where a log that was cut still has them. @type {string[]} */
+  const failures = [];
   let passed = 0;
   let failed = 0;
   for (const stage of stages) {
@@ -265,6 +270,7 @@ await main(async () => {
     for (const line of [...(result.table ?? []), ...(result.lines ?? [])]) process.stdout.write(`${line}\n`);
     passed += result.passed;
     failed += result.failed;
+    if (result.failed > 0) failures.push(...(result.lines ?? []).slice(0, 20).map((line) => `${name}: ${line}`));
     rows.push([name, String(result.passed), String(result.failed), String(result.skipped ?? 0), seconds(ms)]);
   }
   rows.push([
@@ -277,6 +283,7 @@ await main(async () => {
   process.stdout.write(
     `\n${columns([['stage', 'passed', 'failed', 'skipped', 'time'], ...rows], [1, 2, 3, 4]).join('\n')}\n\n`,
   );
+  if (failures.length > 0) process.stdout.write(`what failed\n${failures.join('\n')}\n\n`);
   process.stdout.write(`checks: ${passed} passed, ${failed} failed\n`);
   return failed > 0 ? 1 : 0;
 });

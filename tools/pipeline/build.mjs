@@ -30,6 +30,7 @@ function fingerprint(p, dependencies) {
     join(p.dir, 'package.json'),
     join(p.dir, 'tsup.config.ts'),
     join(root, 'tsup.base.ts'),
+    join(root, 'tools/pipeline/declarations.mjs'),
     join(root, 'tools/pipeline/published-source.mjs'),
     join(root, 'tools/pipeline/wesl.mjs'),
     join(root, 'tools/pipeline/wesl-constants.mjs'),

@@ -82,6 +82,7 @@ export const PEERS = [
   '@sparticuz/chromium',
   'draco3dgltf',
   'ktx-parse',
+  'mediabunny',
   'react',
   '@react-three/fiber',
   'three',

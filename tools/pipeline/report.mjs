@@ -1,4 +1,6 @@
 // What every check gives back, and how it is shown.
+import { relative } from 'node:path';
+import { stripVTControlCharacters } from 'node:util';
 
 /**
  * @typedef {{ passed: number, failed: number, skipped?: number, lines?: string[], table?: string[] }} CheckResult
@@ -47,6 +49,45 @@ export function columns(rows, rightAligned = []) {
       .join('  ')
       .trimEnd(),
   );
+}
+
+const firstLine = (text) => stripVTControlCharacters(String(text)).trim().split('\n', 1)[0];
+
+/**
+ * What failed according to a report of Vitest's JSON reporter: one line a test, `file: full name: first line of its
+ * message`, and one for each file that failed outside of its tests.
+ *
+ * @param {string} root Files are named relative to it.
+ * @returns {string[]}
+ */
+export function vitestFailures({ testResults = [] }, root) {
+  return testResults.flatMap(({ name, status, message, assertionResults = [] }) => {
+    const file = relative(root, name).replaceAll('\\', '/');
+    const failed = assertionResults.filter((test) => test.status === 'failed');
+    if (failed.length === 0 && status === 'failed') return [`${file}: ${firstLine(message)}`];
+    return failed.map((test) => `${file}: ${test.fullName}: ${firstLine(test.failureMessages?.[0] ?? '')}`);
+  });
+}
+
+/**
+ * What failed, or passed only when repeated, according to a report of Playwright's JSON reporter: one line a test,
+ * `file: title: first line of its message`, and one for each error outside of the tests.
+ *
+ * @returns {string[]}
+ */
+export function playwrightFailures({ suites = [], errors = [] }) {
+  const lines = errors.map(({ message }) => firstLine(message));
+  const visit = (suite) => {
+    for (const { file, title, tests } of suite.specs ?? [])
+      for (const { status, results } of tests)
+        if (status === 'unexpected' || status === 'flaky') {
+          const error = results.find((result) => result.error)?.error;
+          lines.push(`${file}: ${title}: ${firstLine(error?.message ?? status)}`);
+        }
+    for (const child of suite.suites ?? []) visit(child);
+  };
+  for (const suite of suites) visit(suite);
+  return lines;
 }
 
 /** Runs one check as a program of its own when its file is the one that Node was started with. */

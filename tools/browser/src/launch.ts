@@ -21,6 +21,9 @@ const QUIET_FLAGS = [
 /** How Chromium is started on the software GPU. */
 export const SOFTWARE_GPU = ['--no-sandbox', ...GPU_FLAGS, ...QUIET_FLAGS];
 
+/** How Chromium is started without any GPU, for tests of what pages say: to paint them costs more than to read them. */
+export const WITHOUT_GPU = ['--no-sandbox', '--disable-gpu', ...QUIET_FLAGS];
+
 /**
  * How to start the Chromium of the npm package on the software GPU; elsewhere than on x86-64 Linux, Playwright's own.
  *

@@ -22,11 +22,16 @@ export const cameraFile = ({ model, camera }: Pick<GalleryImage, 'model' | 'came
 
 const quoted = (text: string): string => (/^[\w./,=:-]+$/.test(text) ? text : `'${text}'`);
 
-/** The command that renders an image, in lines of at most 80 columns where its words allow that. */
-export function commandOf(image: GalleryImage): string {
+/**
+ * The command that renders an image, in lines of at most 80 columns where its words allow that.
+ *
+ * @param samples Those that the image has. Default: what the manifest says.
+ */
+export function commandOf(image: GalleryImage, samples?: number): string {
   const words = [`${image.model}.glb`, `--camera ${cameraFile(image)}`];
   if (image.variant !== undefined) words.push(`--variant ${quoted(image.variant)}`);
-  for (const [name, value] of Object.entries({ ...DEFAULTS, ...image.options }))
+  const options = { ...DEFAULTS, ...image.options, ...(samples === undefined ? {} : { samples }) };
+  for (const [name, value] of Object.entries(options))
     for (const one of Array.isArray(value) ? value : [value])
       words.push(one === true ? `--${name}` : `--${name} ${quoted(String(one))}`);
   words.push(`--size ${SIZE.width}x${SIZE.height}`, `-o ${image.id}.png`);

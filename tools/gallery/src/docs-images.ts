@@ -37,11 +37,11 @@ export async function writeDocsImages(images: readonly GalleryImage[], folder: s
     writeFileSync(join(target, `${id}.webp`), bytes);
     process.stdout.write(`${id}.webp: quality ${quality}, ${Math.round(bytes.byteLength / 1000)} kB\n`);
   }
-  // The page shows what there is of the manifest, in its order, with the commands and the texts of today.
+  // The page shows what there is of the manifest, in its order, with the texts of today and the samples that were rendered.
   const records = GALLERY.flatMap((image) => {
     const record = known.get(image.id);
     const { id, title, alt, model, variant } = image;
-    return record ? [{ ...record, id, title, alt, model, variant, command: commandOf(image) }] : [];
+    return record ? [{ ...record, id, title, alt, model, variant, command: commandOf(image, record.samples) }] : [];
   });
   const models = [...new Set(records.map(({ model }) => model))].filter((model) => !LARGE_MODELS.includes(model));
   writeFileSync(facts, `${JSON.stringify({ images: records, models }, null, 2)}\n`);

@@ -113,7 +113,7 @@ async function render(
     const image = images.find(({ id }) => one.files.some(({ path }) => path.endsWith(`${id}.png`)))!;
     records.push({
       id: image.id,
-      command: commandOf(image),
+      command: commandOf(image, one.samples),
       width: one.width,
       height: one.height,
       samples: one.samples,

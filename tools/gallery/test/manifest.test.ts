@@ -40,6 +40,14 @@ describe('manifest of the gallery', () => {
   });
 });
 
+describe('commandOf', () => {
+  it('has the samples that an image was rendered with, which a run may set', () => {
+    const watch = GALLERY.find(({ id }) => id === 'watch-blue')!;
+    expect(commandOf(watch)).toContain(' --samples 256 ');
+    expect(commandOf(watch, 64)).toBe(commandOf(watch).replace('--samples 256', '--samples 64'));
+  });
+});
+
 describe('cameraJson', () => {
   it('gives position, target and lens of a camera that looks along -z of its frame', () => {
     const camera: PerspectiveCamera = {

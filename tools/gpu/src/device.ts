@@ -1,4 +1,4 @@
-import { createGpu } from '@glanz/renderer/node';
+import { createGpu, type NodeGpu } from '@glanz/renderer/node';
 
 /** Options for {@link testDevice}. */
 export interface TestDeviceOptions {
@@ -28,17 +28,29 @@ const shared = new Map<string, Shared>();
  * The GPU to test on: the one that GLANZ_TEST_GPU names, e.g. `nvidia`; else a software GPU, so that tests give the same
  * results on every machine.
  */
-async function findGpu(driver: TestDeviceOptions['driver']): Promise<GPU> {
+async function findGpu(driver: TestDeviceOptions['driver']): Promise<NodeGpu> {
   const name = process.env['GLANZ_TEST_GPU'];
-  if (name) return (await createGpu({ gpu: name })).gpu;
-  if (driver !== 'swiftshader') return (await createGpu({ software: 'only' })).gpu;
-  const found = createGpu({ gpu: 'swiftshader', software: 'only' });
+  if (name) return createGpu({ gpu: name });
+  if (driver !== 'swiftshader') return createGpu({ software: 'only' });
   // Elsewhere than on x86-64 Linux there may be none.
-  return (await found.catch(() => createGpu({ software: 'only' }))).gpu;
+  return createGpu({ gpu: 'swiftshader', software: 'only' }).catch(() => createGpu({ software: 'only' }));
 }
 
-async function request(options: TestDeviceOptions, errors: string[]): Promise<GPUDevice> {
-  const gpu = await findGpu(options.driver);
+/**
+ * Keeps the pipelines that a device compiles. Dawn answers a request for a pipeline that exists with that one, without
+ * compiling: tests create the same ones many times, and compiling is most of their time.
+ */
+function keepPipelines(device: GPUDevice): void {
+  const kept = new Set<GPUComputePipeline>();
+  const create = device.createComputePipelineAsync.bind(device);
+  device.createComputePipelineAsync = async (descriptor) => {
+    const pipeline = await create(descriptor);
+    kept.add(pipeline);
+    return pipeline;
+  };
+}
+
+async function request(gpu: GPU, options: TestDeviceOptions, errors: string[]): Promise<GPUDevice> {
   const adapter = await gpu.requestAdapter();
   if (!adapter) throw new Error('testDevice: the adapter that createGpu() found is gone');
   const requiredLimits: Record<string, number> = {};
@@ -51,6 +63,7 @@ async function request(options: TestDeviceOptions, errors: string[]): Promise<GP
   const requested = options.features ?? ['timestamp-query', 'subgroups'];
   const requiredFeatures = requested.filter((feature) => adapter.features.has(feature)) as GPUFeatureName[];
   const device = await adapter.requestDevice({ label: 'glanz test', requiredLimits, requiredFeatures });
+  keepPipelines(device);
   device.addEventListener('uncapturederror', (event) => {
     event.preventDefault();
     errors.push((event as GPUUncapturedErrorEvent).error.message);
@@ -72,12 +85,14 @@ async function request(options: TestDeviceOptions, errors: string[]): Promise<GP
  * const device = await testDevice();
  * afterEach(() => expectNoGpuErrors());
  */
-export function testDevice(options: TestDeviceOptions = {}): Promise<GPUDevice> {
-  const key = JSON.stringify(options);
+export async function testDevice({ driver, ...options }: TestDeviceOptions = {}): Promise<GPUDevice> {
+  const { gpu, adapterName } = await findGpu(driver);
+  // Where there is one driver, who asks for it by name shares its device and programs with the others.
+  const key = JSON.stringify([adapterName, options]);
   let entry = shared.get(key);
   if (!entry) {
     const errors: string[] = [];
-    entry = { device: request(options, errors), errors };
+    entry = { device: request(gpu, options, errors), errors };
     shared.set(key, entry);
   }
   return entry.device;

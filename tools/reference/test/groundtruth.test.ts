@@ -23,6 +23,19 @@ describe('ground truth', () => {
     300_000,
   );
 
+  it.each(['cornell_spheres', 'env_sun'])(
+    '%s agrees with its reference when directions are guided',
+    async (scene) => {
+      const { compareImages, GroundTruth, renderImage } = await import('../src/index');
+      const { groundTruthOptions } = await import('../src/render');
+      const truth = new GroundTruth(scene);
+      const options = { ...groundTruthOptions(truth, {}), guiding: 0.1, samples: 8 };
+      const image = await renderImage(await testDevice(), await truth.scene(), options);
+      expect(failures(compareImages(image, 8, truth.image(), truth.description.film, truth.tolerance))).toBe('');
+    },
+    300_000,
+  );
+
   it('detects a renderer that loses bounces (the full variant against a render of direct light)', async () => {
     const { GroundTruth, compareImages, renderImage } = await import('../src/index');
     const truth = new GroundTruth('cornell_diffuse');

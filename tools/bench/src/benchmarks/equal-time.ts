@@ -1,9 +1,8 @@
-import { spawn } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { timed, type Benchmark, type BenchmarkContext, type BenchmarkResult, type Figure } from '../benchmark';
+import { childJob, inChild, type ChildJobs } from '../child';
 import { BenchError } from '../error';
 import { CONTESTANTS, type ContestantName } from '../equal-time/contestants';
 import { measure, type Measurement, type MeasurementPlan } from '../equal-time/measure';
@@ -19,15 +18,18 @@ import {
   type SceneInfo,
 } from '../equal-time/summary';
 import { machine } from '../machine';
+import { listOption, numberOption } from '../options';
 
-/** Set in the processes that this benchmark starts: what they are to do. */
-const CHILD = 'GLANZ_BENCH_EQUAL_TIME';
-
-/** Arguments of a child process: a plan, and the file for its result. */
-type Job = { readonly out: string } & (
+/** What a child process is to do. */
+type Job =
   | { readonly kind: 'measure'; readonly plan: MeasurementPlan }
-  | { readonly kind: 'reference'; readonly plan: ReferencePlan }
-);
+  | { readonly kind: 'reference'; readonly plan: ReferencePlan };
+
+const JOBS: ChildJobs<Job> = {
+  name: 'equal-time',
+  file: import.meta.url,
+  run: (job, log) => (job.kind === 'measure' ? measure(job.plan, log) : makeReference(job.plan, log)),
+};
 
 const OPTIONS = {
   scenes: { type: 'string', help: 'names, separated by commas' },
@@ -40,55 +42,6 @@ const OPTIONS = {
   from: { type: 'string', help: 'measures nothing: takes the data of these reports, separated by commas' },
   pages: { type: 'string', help: 'folder to write the table and the plots into' },
 } as const;
-
-function numberOption(
-  values: BenchmarkContext['values'],
-  name: keyof typeof OPTIONS,
-  standard: number,
-  whole = true,
-): number {
-  const text = values[name];
-  const value = text === undefined ? standard : Number(text);
-  if (!(value > 0) || (whole && !Number.isInteger(value)))
-    throw new BenchError('bench/option', `--${name} must be a ${whole ? 'whole ' : ''}number above 0, not "${text}".`);
-  return value;
-}
-
-function listOption<T extends string>(text: string | undefined, all: readonly T[], what: string): readonly T[] {
-  if (text === undefined) return all;
-  const requested = text.split(',');
-  const unknown = requested.find((name) => !(all as readonly string[]).includes(name));
-  if (unknown !== undefined)
-    throw new BenchError('bench/option', `There is no ${what} "${unknown}"; there are: ${all.join(', ')}.`);
-  return all.filter((name) => requested.includes(name));
-}
-
-/** Runs a job in a process of its own, since renderers must not share one. */
-async function inChild<T>(job: Job): Promise<T | string> {
-  const child = spawn(process.execPath, [fileURLToPath(import.meta.url)], {
-    env: { ...process.env, [CHILD]: JSON.stringify(job) },
-    stdio: ['ignore', 'ignore', 'pipe'],
-  });
-  let messages = '';
-  child.stderr.setEncoding('utf8').on('data', (text: string) => {
-    messages = (messages + text).slice(-2000);
-    // What the driver and three warn of is kept for failures; our own lines are printed.
-    for (const line of text.split('\n'))
-      if (line.startsWith('equal-time: ')) process.stderr.write(`${line.slice(12)}\n`);
-  });
-  const code = await new Promise<number | null>((resolve) => child.on('close', resolve));
-  return code === 0
-    ? (JSON.parse(readFileSync(job.out, 'utf8')) as T)
-    : `failed (${code}): ${messages.trim().split('\n').slice(-3).join(' | ')}`;
-}
-
-async function runJob(job: Job): Promise<never> {
-  const log = (line: string) => process.stderr.write(`equal-time: ${line}\n`);
-  const result = job.kind === 'measure' ? await measure(job.plan, log) : await makeReference(job.plan, log);
-  writeFileSync(job.out, JSON.stringify(result));
-  // Dawn's threads would keep the process for a while.
-  process.exit(0);
-}
 
 const referencesOnly = (quantity: Quantity) => (scene: SceneInfo) =>
   scene.truth === 'references' ? quantity : undefined;
@@ -175,9 +128,8 @@ async function measureAll({
       if (truth === 'own') {
         const check = late()
           ? 'left out: the deadline had passed'
-          : await inChild<CrossCheck>({
+          : await inChild<CrossCheck, Job>(JOBS, {
               kind: 'reference',
-              out: join(folder, 'job.json'),
               plan: { ...common, samples, file: referenceFile },
             });
         if (typeof check === 'string') {
@@ -198,7 +150,7 @@ async function measureAll({
         };
         const result = late()
           ? 'left out: the deadline had passed'
-          : await inChild<Measurement>({ kind: 'measure', out: join(folder, 'job.json'), plan });
+          : await inChild<Measurement, Job>(JOBS, { kind: 'measure', plan });
         if (typeof result === 'string') {
           notes.push(`${name}, ${contestant}: ${result}`);
           log(`${name}, ${contestant}: ${result}`);
@@ -268,8 +220,7 @@ export const benchmark: Benchmark = {
   description: 'error after 0.1, 0.3, 1 and 3 s of GPU time against three-gpu-pathtracer',
   options: OPTIONS,
   async run(context) {
-    const child = process.env[CHILD];
-    if (child !== undefined) return runJob(JSON.parse(child) as Job);
+    await childJob(JOBS);
     const { values } = context;
     const from = values['from'];
     const earlier = from === undefined ? undefined : joined(from.split(','));

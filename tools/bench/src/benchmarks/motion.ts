@@ -4,18 +4,12 @@ import { TEMPORAL_AOVS, TemporalFilter } from '@glanz/denoise/temporal';
 import { createCornellBox } from '@glanz/models';
 import { PathTracer, requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
-import type { Camera } from '@glanz/scene';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 import { PRODUCT_SCENES, type ProductScene } from '../denoise/product-scenes';
 import { BenchError } from '../error';
 import { flipOfSeen, seen, type SeenImage } from '../flip/flip';
-import { orbited } from '../motion/orbit';
+import { FRAMES, MOVEMENTS, STEP } from '../motion/movements';
 
-/** Frames of the orbit, and radians from one to the next: a quarter turn a second at 60 frames a second. */
-const FRAMES = 120;
-const STEP = Math.PI / 2 / 60;
-/** Radians that a camera inside of a room turns at most to either side. */
-const SWAY = 0.12;
 /** Frames that are compared with references, each with the one before it. */
 const COMPARED = [29, 59, 89, 119];
 const DEPTH = 6;
@@ -44,17 +38,18 @@ function shown(rgba: Float32Array): Float32Array {
   return out;
 }
 
-/** What is kept of one way through the orbit: images by frame, and milliseconds a frame. */
+/** What is kept of one way through a movement: images by frame, and milliseconds a frame. */
 interface Series {
   readonly images: Map<number, Float32Array>;
   readonly milliseconds: number[];
 }
 
-/** Moving images: an orbit of 120 frames of a few samples, raw and with the frames before, against references. */
+/** Moving images: 120 frames of a few samples, raw and with the frames before, against references. */
 export const benchmark: Benchmark = {
-  description: `an orbit of ${FRAMES} frames, raw and filtered over time: FLIP against references of the frames, flicker, frame times`,
+  description: `${FRAMES} frames of a movement, raw and filtered over time: FLIP against references of the frames, flicker, frame times`,
   options: {
     scenes: { type: 'string', help: `of ${Object.keys(SCENES).join(',')}; default: all` },
+    movements: { type: 'string', help: `of ${Object.keys(MOVEMENTS).join(',')}; default: all` },
     size: { type: 'string', help: 'WIDTHxHEIGHT; default 1920x1080, on software GPUs 160x90' },
     compared: { type: 'string', help: `frames that are compared; default ${COMPARED.join(',')}; "none": times alone` },
     samples: { type: 'string', help: 'of a frame; default 1' },
@@ -80,75 +75,90 @@ export const benchmark: Benchmark = {
         : (asked?.split(',').map(Number) ?? COMPARED).filter((frame) => frame >= 1 && frame <= last);
     const kept = compared.flatMap((frame) => [frame - 1, frame]);
     const names = values['scenes']?.split(',') ?? Object.keys(SCENES);
+    const movements = values['movements']?.split(',') ?? (quick ? ['orbit'] : Object.keys(MOVEMENTS));
     const figures: Figure[] = [];
     const details: unknown[] = [];
     for (const scene of names) {
       const load = SCENES[scene];
       if (!load) throw new BenchError('bench/option', `--scenes: there is no "${scene}".`);
       const product = await load(width / height);
-      const create = (aovs: typeof TEMPORAL_AOVS | readonly []) =>
-        PathTracer.create(device, product.scene, { width, height, camera: product.camera, maxDepth: DEPTH, aovs });
-      const add = async (tracer: PathTracer, count: number) => {
-        for await (const progress of tracer.render({ samples: count, maxSubmitMs: 100 })) void progress;
-      };
-      const made = {} as Record<Way, Series>;
-      for (const way of WAYS) {
-        const tracer = await create(way === 'raw' ? [] : TEMPORAL_AOVS);
-        const filter = way === 'raw' ? undefined : await TemporalFilter.create(device);
-        await filter?.prepare(width, height);
-        const series: Series = { images: new Map(), milliseconds: [] };
-        // Shaders and the scheduler warm up before the orbit.
-        await add(tracer, 4);
-        for (let frame = 0; frame <= last; frame++) {
-          const started = performance.now();
-          await tracer.setCamera(viewAt(product.camera, scene, frame));
-          // Other random numbers than those of the frame before, or its noise would never average out.
-          tracer.reset({ firstSample: frame * samples });
-          await add(tracer, samples);
-          const image = filter?.filterTracer(tracer, frame === 0 ? 'cuts' : 'moves');
-          await device.queue.onSubmittedWorkDone();
-          series.milliseconds.push(performance.now() - started);
-          if (kept.includes(frame))
-            series.images.set(frame, filter && image ? await filter.read(image) : await tracer.read('beauty'));
+      for (const movement of movements) {
+        const moves = MOVEMENTS[movement];
+        if (!moves) throw new BenchError('bench/option', `--movements: there is no "${movement}".`);
+        const title = movement === 'orbit' ? scene : `${scene}, ${movement}`;
+        const create = (aovs: typeof TEMPORAL_AOVS | readonly []) =>
+          PathTracer.create(device, product.scene, { width, height, camera: product.camera, maxDepth: DEPTH, aovs });
+        const add = async (tracer: PathTracer, count: number) => {
+          for await (const progress of tracer.render({ samples: count, maxSubmitMs: 100 })) void progress;
+        };
+        const made = {} as Record<Way, Series>;
+        for (const way of WAYS) {
+          const tracer = await create(way === 'raw' ? [] : TEMPORAL_AOVS);
+          const filter = way === 'raw' ? undefined : await TemporalFilter.create(device);
+          await filter?.prepare(width, height);
+          const series: Series = { images: new Map(), milliseconds: [] };
+          // Shaders and the scheduler warm up before the movement.
+          await add(tracer, 4);
+          for (let frame = 0; frame <= last; frame++) {
+            const started = performance.now();
+            await moves.at(tracer, product, frame);
+            const follows = frame > 0 && (!moves.camera || tracer.history !== undefined);
+            // Other random numbers than those of the frame before, or its noise would never average out.
+            tracer.reset({ firstSample: frame * samples });
+            await add(tracer, samples);
+            const image = filter?.filterTracer(tracer, follows ? 'moves' : 'cuts', moves.instances);
+            await device.queue.onSubmittedWorkDone();
+            series.milliseconds.push(performance.now() - started);
+            if (kept.includes(frame))
+              series.images.set(frame, filter && image ? await filter.read(image) : await tracer.read('beauty'));
+          }
+          filter?.destroy();
+          tracer.destroy();
+          made[way] = series;
         }
-        filter?.destroy();
-        tracer.destroy();
-        made[way] = series;
-      }
-      const reference = await create([]);
-      const references = new Map<number, Float32Array>();
-      for (const frame of kept) {
-        await reference.setCamera(viewAt(product.camera, scene, frame));
-        await add(reference, referenceSamples);
-        references.set(frame, await reference.read('beauty'));
-      }
-      reference.destroy();
-      if (values['images'] && compared.length > 0)
-        await writeImages(
-          values['images'],
-          scene,
-          compared,
-          { ...mapImages(made), reference: references },
-          width,
-          height,
-        );
-      const look = (images: ReadonlyMap<number, Float32Array>) =>
-        new Map([...images].map(([frame, image]) => [frame, seen(shown(image), width, height)]));
-      const truth = look(references);
-      for (const way of WAYS) {
-        const looks = look(made[way].images);
-        const error = compared.map((frame) => flipOfSeen(truth.get(frame)!, looks.get(frame)!).mean);
-        const flicker = compared.map((frame) => change(looks, frame) - change(truth, frame));
-        if (compared.length > 0)
-          figures.push(
-            timed(`${scene}, ${way}: FLIP against the reference of the frame`, '1', error),
-            timed(`${scene}, ${way}: FLIP from frame to frame beyond that of the references`, '1', flicker),
+        const reference = await create([]);
+        const references = new Map<number, Float32Array>();
+        for (const frame of kept) {
+          await moves.at(reference, product, frame);
+          await add(reference, referenceSamples);
+          references.set(frame, await reference.read('beauty'));
+        }
+        reference.destroy();
+        if (values['images'] && compared.length > 0)
+          await writeImages(
+            values['images'],
+            title,
+            compared,
+            { ...mapImages(made), reference: references },
+            width,
+            height,
           );
-        figures.push(timed(`${scene}, ${way}: frame`, 'ms', made[way].milliseconds));
-        details.push({ scene, way, frames: compared, error, flicker, milliseconds: made[way].milliseconds });
-        log(
-          `${scene}, ${way}: FLIP ${error.map((value) => value.toFixed(4)).join(' ')}, flicker ${flicker.map((value) => value.toFixed(4)).join(' ')}, ${[...made[way].milliseconds].sort((a, b) => a - b)[Math.floor(0.5 * made[way].milliseconds.length)]!.toFixed(1)} ms`,
-        );
+        const look = (images: ReadonlyMap<number, Float32Array>) =>
+          new Map([...images].map(([frame, image]) => [frame, seen(shown(image), width, height)]));
+        const truth = look(references);
+        for (const way of WAYS) {
+          const looks = look(made[way].images);
+          const error = compared.map((frame) => flipOfSeen(truth.get(frame)!, looks.get(frame)!).mean);
+          const flicker = compared.map((frame) => change(looks, frame) - change(truth, frame));
+          if (compared.length > 0)
+            figures.push(
+              timed(`${title}, ${way}: FLIP against the reference of the frame`, '1', error),
+              timed(`${title}, ${way}: FLIP from frame to frame beyond that of the references`, '1', flicker),
+            );
+          figures.push(timed(`${title}, ${way}: frame`, 'ms', made[way].milliseconds));
+          details.push({
+            scene,
+            movement,
+            way,
+            frames: compared,
+            error,
+            flicker,
+            milliseconds: made[way].milliseconds,
+          });
+          log(
+            `${title}, ${way}: FLIP ${error.map((value) => value.toFixed(4)).join(' ')}, flicker ${flicker.map((value) => value.toFixed(4)).join(' ')}, ${[...made[way].milliseconds].sort((a, b) => a - b)[Math.floor(0.5 * made[way].milliseconds.length)]!.toFixed(1)} ms`,
+          );
+        }
       }
     }
     device.destroy();
@@ -161,12 +171,6 @@ export const benchmark: Benchmark = {
   },
 };
 
-/** The camera of a frame: it goes around products, and to and fro in front of the room, at the same speed. */
-function viewAt(camera: Camera, scene: string, frame: number): Camera {
-  const angle = frame * STEP;
-  return orbited(camera, scene === 'room' ? SWAY * Math.sin(angle / SWAY) : angle);
-}
-
 const change = (looks: ReadonlyMap<number, SeenImage>, frame: number) =>
   flipOfSeen(looks.get(frame - 1)!, looks.get(frame)!).mean;
 
@@ -176,7 +180,7 @@ const mapImages = (made: Readonly<Record<Way, Series>>) =>
 /** Writes the last compared frame of each way. */
 async function writeImages(
   folder: string,
-  scene: string,
+  title: string,
   compared: readonly number[],
   images: Readonly<Record<string, ReadonlyMap<number, Float32Array>>>,
   width: number,
@@ -186,6 +190,8 @@ async function writeImages(
   mkdirSync(folder, { recursive: true });
   for (const [way, frames] of Object.entries(images)) {
     const rgb = Uint8Array.from(shown(frames.get(compared.at(-1)!)!), (value) => 255 * value);
-    await sharp(rgb, { raw: { width, height, channels: 3 } }).toFile(join(folder, `${scene}-${way}.png`));
+    await sharp(rgb, { raw: { width, height, channels: 3 } }).toFile(
+      join(folder, `${title.replace(', ', '-')}-${way}.png`),
+    );
   }
 }

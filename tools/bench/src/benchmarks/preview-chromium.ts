@@ -27,7 +27,7 @@ export const benchmark: Benchmark = {
       for (const [width, height] of quick || gpu === 'software' ? SIZES.slice(0, 1) : SIZES) {
         const page = await browser.newPage({ viewport: { width: width + 700, height: height + 300 } });
         await watchFrames(page);
-        await page.goto(`${server.origin}/?model=push-button&samples=100000`);
+        await page.goto(`${server.origin}/?model=push-button&floor=off&samples=100000`);
         const canvas = page.locator('#image');
         await firstFilm(page);
         // The panels take what they take; the image gets the rest.

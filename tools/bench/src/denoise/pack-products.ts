@@ -3,7 +3,7 @@ import { dirname, join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { assetFile, decodePixels, glbImages, packPixels, pixelsName } from '../equal-time/load';
 import { FILM_WEIGHTS } from '@glanz/denoise/film';
-import { HALL, PRODUCT_MODELS, PRODUCT_TEXELS } from './product-scenes';
+import { GLASS_TABLE, HALL, PRODUCT_MODELS, PRODUCT_TEXELS } from './product-scenes';
 
 /** Bytes at the beginning of an encoded image that say what it is. */
 const KEPT = 64;
@@ -19,7 +19,7 @@ export async function packProducts(folder: string, weights: string): Promise<str
     copyFileSync(from, join(folder, to));
   };
   mkdirSync(join(folder, 'images'), { recursive: true });
-  for (const path of [HALL, ...Object.values(PRODUCT_MODELS).map(({ file }) => file)]) {
+  for (const path of [HALL, GLASS_TABLE, ...Object.values(PRODUCT_MODELS).map(({ file }) => file)]) {
     const file = assetFile(path);
     if (!file) {
       missing.push(path);

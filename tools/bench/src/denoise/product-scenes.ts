@@ -16,6 +16,9 @@ export const PRODUCT_TEXELS = 512;
 /** The environment of the models that mirror or refract much. */
 export const HALL = 'env/royal_esplanade_256.hdr';
 
+/** A model that `products` wants besides. */
+export const GLASS_TABLE = 'glass-table/glass-table.glb';
+
 /** Models of the sample assets, and what lights them. */
 export const PRODUCT_MODELS = {
   helmet: { file: 'DamagedHelmet/DamagedHelmet.glb', light: 'hall' },
@@ -34,7 +37,12 @@ export interface ProductScene {
   readonly camera: Camera;
 }
 
-function fileOf(path: string): Uint8Array<ArrayBuffer> {
+/**
+ * A file of the products: from the packed data, or from the sample assets.
+ *
+ * @throws {BenchError} `bench/missing-data` where it is in neither.
+ */
+export function productFile(path: string): Uint8Array<ArrayBuffer> {
   const packed = packedFolder(PRODUCT_DATA);
   const file = packed ? join(packed, path) : assetFile(path);
   if (packed && existsSync(`${file}.gz`)) return new Uint8Array(gunzipSync(readFileSync(`${file}.gz`)));
@@ -43,8 +51,9 @@ function fileOf(path: string): Uint8Array<ArrayBuffer> {
   return new Uint8Array(readFileSync(file));
 }
 
-function hall(): Environment {
-  const { width, height, data } = decodeHdr(fileOf(HALL));
+/** The photographed hall. */
+export function hall(): Environment {
+  const { width, height, data } = decodeHdr(productFile(HALL));
   return { type: 'latlong', width, height, data };
 }
 
@@ -65,7 +74,7 @@ function pushButton(sun: boolean, aspect: number): ProductScene {
 
 async function model(name: keyof typeof PRODUCT_MODELS, aspect: number): Promise<ProductScene> {
   const { file, light } = PRODUCT_MODELS[name];
-  const scene = await loadGltf(fileOf(file), {
+  const scene = await loadGltf(productFile(file), {
     decodeImage: (bytes) => decodePixels(bytes, { folder: packedFolder(PRODUCT_DATA), largest: PRODUCT_TEXELS }),
   });
   scene.environment = light === 'hall' ? hall() : studioEnvironment();

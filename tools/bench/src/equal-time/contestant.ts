@@ -1,4 +1,5 @@
 import type { Environment, PerspectiveCamera } from '@glanz/scene';
+import type { DecodeOptions } from './load';
 
 /** What every contestant is given: one file, one camera, one size, one depth, one environment. */
 export interface Task {
@@ -12,6 +13,8 @@ export interface Task {
   readonly maxDepth: number;
   /** Whether the reference keeps the energy that rough metals lose to single scattering. */
   readonly multipleScattering: boolean;
+  /** How textures are decoded; default: as `decodePixels` does. */
+  readonly textures?: DecodeOptions;
 }
 
 /** A renderer that takes part, with a task loaded and its pipelines compiled. */

@@ -1,11 +1,18 @@
-import { loadGltfBytes } from './load';
 import { PathTracer } from '@glanz/renderer';
+import type { Scene } from '@glanz/scene';
 import type { Contestant, Task } from './contestant';
+import { loadGltfBytes } from './load';
+
+/** The scene of a task, with its environment. */
+export async function taskScene({ glb, textures, environment }: Task): Promise<Scene> {
+  const scene = await loadGltfBytes(glb, textures);
+  if (environment) scene.environment = environment;
+  return scene;
+}
 
 /** Glanz, as its users get it. */
 export async function createGlanz(device: GPUDevice, task: Task): Promise<Contestant> {
-  const scene = await loadGltfBytes(task.glb);
-  if (task.environment) scene.environment = task.environment;
+  const scene = await taskScene(task);
   const { width, height, maxDepth, camera, multipleScattering } = task;
   const create = (seed: number) =>
     PathTracer.create(device, scene, { width, height, maxDepth, camera, multipleScattering, seed });

@@ -87,6 +87,11 @@ export class GpuTime {
     return units * submissions <= SUBMISSIONS;
   }
 
+  /** The most units that can be timed as they run, at least one. */
+  max({ submissions }: UnitCost): number {
+    return Math.max(1, Math.floor(SUBMISSIONS / Math.max(submissions, 1e-9)));
+  }
+
   destroy(): void {
     this.#clock?.destroy();
   }

@@ -10,8 +10,8 @@ export interface Reference {
   readonly standardError: Float32Array;
 }
 
-/** How far an image is from its reference. */
-export interface ImageError {
+/** How far an image is from its reference, pixel by pixel. */
+export interface PixelError {
   /**
    * As the ground truth defines it, less what the reference's own noise adds on average; about 0 or below where only
    * that is left.
@@ -19,10 +19,14 @@ export interface ImageError {
   readonly relMse: number;
   /** {@link relMse} with the reference's noise in it. */
   readonly relMseWithReference: number;
-  /** Mean ꟻLIP of the tone-mapped images, 0..1. */
-  readonly flip: number;
   /** Mean of the image over that of the reference, all channels together. */
   readonly brightness: number;
+}
+
+/** How far an image is from its reference, and how far one sees that it is. */
+export interface ImageError extends PixelError {
+  /** Mean ꟻLIP of the tone-mapped images, 0..1. */
+  readonly flip: number;
 }
 
 /** Means of `factor` × `factor` pixels. */
@@ -84,15 +88,19 @@ function flipError(image: Float32Array, { mean, width, height }: Reference): num
   return flip(a!, b!, width / factor, height / factor).mean;
 }
 
-/** Compares an image with a reference of the same size. */
-export function imageError(image: Float32Array, reference: Reference): ImageError {
-  const { mean, standardError } = reference;
+/** Compares an image with a reference of the same size, pixel by pixel. */
+export function pixelError(image: Float32Array, { mean, standardError }: Reference): PixelError {
   const squared = (i: number) => (image[i]! - mean[i]!) ** 2;
   const total = (values: Float32Array) => values.reduce((sum, value) => sum + value, 0);
   return {
     relMse: relative((i) => squared(i) - standardError[i]! ** 2, mean),
     relMseWithReference: relative(squared, mean),
-    flip: flipError(image, reference),
     brightness: total(image) / total(mean),
   };
 }
+
+/** Compares an image with a reference of the same size. */
+export const imageError = (image: Float32Array, reference: Reference): ImageError => ({
+  ...pixelError(image, reference),
+  flip: flipError(image, reference),
+});

@@ -63,13 +63,18 @@ function unpackPixels(file: string): Pixels {
   return { width: width as number, height: height as number, data: bytes.slice(8) };
 }
 
-/** Decodes a texture, the same way for all contestants. `folder`: of the packed data, if there is any. */
+/** Options for {@link decodePixels}. */
+export interface DecodeOptions {
+  /** Of the packed data, if there is any; default: that of `equal-time`. */
+  readonly folder?: string | undefined;
+  /** Longest edge, texels; default 1024. */
+  readonly largest?: number;
+}
+
+/** Decodes a texture, the same way for all contestants. */
 export async function decodePixels(
   bytes: Uint8Array,
-  {
-    folder = packedFolder(),
-    largest = LARGEST,
-  }: { readonly folder?: string | undefined; readonly largest?: number } = {},
+  { folder = packedFolder(), largest = LARGEST }: DecodeOptions = {},
 ): Promise<Pixels> {
   if (folder) {
     const file = join(folder, 'images', pixelsName(bytes));
@@ -102,5 +107,5 @@ export function glbImages(glb: Uint8Array): Uint8Array[] {
 }
 
 /** A .glb file as a scene. */
-export const loadGltfBytes = (glb: Uint8Array<ArrayBuffer>): Promise<Scene> =>
-  loadGltf(glb, { decodeImage: (bytes) => decodePixels(bytes) });
+export const loadGltfBytes = (glb: Uint8Array<ArrayBuffer>, textures?: DecodeOptions): Promise<Scene> =>
+  loadGltf(glb, { decodeImage: (bytes) => decodePixels(bytes, textures) });

@@ -1,7 +1,6 @@
-import { requestDevice } from '@glanz/renderer';
-import { createGpu } from '@glanz/renderer/node';
 import { BenchError } from '../error';
 import { CONTESTANTS, type ContestantName } from './contestants';
+import { watchedDevice } from './device';
 import { GpuTime } from './gpu-time';
 import { noiseOf, imageError, shrink, type ImageError, type Reference } from './images';
 import { readReference } from './reference';
@@ -52,7 +51,7 @@ function fitted(image: Float32Array, size: number, reference: Reference): Float3
 }
 
 /** Rounds that compile all pipelines and bring clocks up. */
-const WARM_UP = { samples: 8, rounds: 24 } as const;
+export const WARM_UP = { samples: 8, rounds: 24 } as const;
 
 /** Renders as planned, and measures. One plan to a process: contestants must not share one. */
 export async function measure(plan: MeasurementPlan, log: (line: string) => void): Promise<Measurement> {
@@ -64,23 +63,13 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
     );
   const { task, reference: known } = await scene.load(plan.size);
   const reference = known ?? readReference(plan.referenceFile);
-  const { gpu, adapterName, software } = await createGpu(plan.gpu === undefined ? {} : { gpu: plan.gpu });
-  const device = await requestDevice({ gpu });
-  const faults: string[] = [];
-  device.addEventListener('uncapturederror', ({ error }) => void faults.push(error.message.split('\n', 1)[0]!));
-  const checkFaults = () => {
-    if (faults.length > 0)
-      throw new BenchError(
-        'bench/gpu-error',
-        `${plan.contestant} on ${plan.scene}: ${faults.length} GPU errors, the first: ${faults[0]}`,
-      );
-  };
+  const { device, adapter, check } = await watchedDevice(plan.gpu, `${plan.contestant} on ${plan.scene}`);
   const notes: string[] = [];
   const started = performance.now();
   const contestant = await CONTESTANTS[plan.contestant](device, task);
   await contestant.advance(WARM_UP[contestant.unit]);
   const setUpMs = performance.now() - started;
-  checkFaults();
+  check();
   const time = await GpuTime.create(device);
   if (!time.stamped) notes.push('no timestamp queries: GPU times are wall times');
   const points: Point[][] = [];
@@ -109,7 +98,7 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
       }
       const samples = await contestant.samples();
       const image = fitted(await contestant.read(), plan.size, reference);
-      checkFaults();
+      check();
       const point: Point = { budgetMs, gpuMs, wallMs, samples, ...imageError(image, reference) };
       runPoints.push(point);
       runImages.push(image);
@@ -137,7 +126,7 @@ export async function measure(plan: MeasurementPlan, log: (line: string) => void
   return {
     scene: plan.scene,
     contestant: plan.contestant,
-    adapter: { name: adapterName, software },
+    adapter,
     setUpMs,
     points,
     noise,

@@ -3,8 +3,8 @@ import { PathTracer, requestDevice, type PathTracerOptions } from '@glanz/render
 import { createGpu } from '@glanz/renderer/node';
 import type { Scene } from '@glanz/scene';
 import { BenchError } from '../error';
-import { loadGltfBytes } from './load';
-import type { Reference } from './images';
+import { taskScene } from './glanz';
+import { noiseOf, type Reference } from './images';
 import { SCENES } from './scenes';
 
 /** A long render of Glanz to stand for the truth. */
@@ -85,43 +85,73 @@ export function crossCheck(
   };
 }
 
+/** A reference with what is known of its error. */
+export interface LongRender extends Omit<CrossCheck, 'scene'> {
+  readonly reference: Reference;
+  /** relMSE of the reference's own noise, from its halves. */
+  readonly ownRelMse: number;
+}
+
+/**
+ * Renders a reference from two halves with random numbers of their own, and checks it with independent ones.
+ *
+ * @param samples Samples a pixel of both halves together.
+ */
+export async function renderReference(
+  device: GPUDevice,
+  scene: Scene,
+  options: PathTracerOptions & { readonly width: number; readonly height: number },
+  samples: number,
+): Promise<LongRender> {
+  const half = Math.ceil(samples / 2);
+  const [a, b] = [
+    await render(device, scene, { ...options, seed: 5001 }, half),
+    await render(device, scene, { ...options, seed: 5002 }, half),
+  ];
+  const { width, height } = options;
+  const mean = a.image.map((value, i) => (value + b.image[i]!) / 2);
+  // Exactly what makes (x − mean)² − standardError² the product of the errors against both halves, which has no bias.
+  const standardError = a.image.map((value, i) => Math.abs(value - b.image[i]!) / 2);
+  const reference = { width, height, mean, standardError };
+  const checkSamples = Math.ceil(samples / CHECK_SHARE);
+  const check = await render(device, scene, { ...options, seed: 5003, sampler: 'independent' }, checkSamples);
+  return {
+    reference,
+    // The noise of one half, halved.
+    ownRelMse: noiseOf(a.image, b.image, reference) / 2,
+    samples: 2 * half,
+    checkSamples,
+    ...crossCheck(check, reference),
+  };
+}
+
 /** Renders the reference of a scene into a file, and checks it. */
 export async function makeReference(plan: ReferencePlan, log: (line: string) => void): Promise<CrossCheck> {
   const found = SCENES.find(({ name }) => name === plan.scene);
   if (!found) throw new BenchError('bench/option', `There is no scene "${plan.scene}".`);
   const { task } = await found.load(plan.size);
-  const scene = await loadGltfBytes(task.glb);
-  if (task.environment) scene.environment = task.environment;
+  const scene = await taskScene(task);
   const { gpu } = await createGpu(plan.gpu === undefined ? {} : { gpu: plan.gpu });
   const device = await requestDevice({ gpu });
   const { width, height, maxDepth, camera, multipleScattering } = task;
   const options = { width, height, maxDepth, camera, multipleScattering };
-  const half = Math.ceil(plan.samples / 2);
   const started = performance.now();
-  const [a, b] = [
-    await render(device, scene, { ...options, seed: 5001 }, half),
-    await render(device, scene, { ...options, seed: 5002 }, half),
-  ];
-  const mean = a.image.map((value, i) => (value + b.image[i]!) / 2);
-  // Exactly what makes (x − mean)² − standardError² the product of the errors against both halves, which has no bias.
-  const standardError = a.image.map((value, i) => Math.abs(value - b.image[i]!) / 2);
-  const checkSamples = Math.ceil(plan.samples / CHECK_SHARE);
-  const check = await render(device, scene, { ...options, seed: 5003, sampler: 'independent' }, checkSamples);
-  const result: CrossCheck = {
-    scene: plan.scene,
-    samples: 2 * half,
-    checkSamples,
-    ...crossCheck(check, { width, height, mean, standardError }),
-  };
-  writeReference(plan.file, { width, height, mean, standardError });
+  const { reference, samples, checkSamples, ratio, ratio95, outside, blocks } = await renderReference(
+    device,
+    scene,
+    options,
+    plan.samples,
+  );
+  writeReference(plan.file, reference);
   device.destroy();
   log(
-    `${plan.scene}: reference of ${2 * half} samples in ${((performance.now() - started) / 1000).toFixed(1)} s; with independent random numbers ${result.ratio.toFixed(5)} ± ${result.ratio95.toFixed(5)} of it, ${result.outside} of ${result.blocks} blocks outside`,
+    `${plan.scene}: reference of ${samples} samples in ${((performance.now() - started) / 1000).toFixed(1)} s; with independent random numbers ${ratio.toFixed(5)} ± ${ratio95.toFixed(5)} of it, ${outside} of ${blocks} blocks outside`,
   );
-  return result;
+  return { scene: plan.scene, samples, checkSamples, ratio, ratio95, outside, blocks };
 }
 
-function writeReference(file: string, { width, height, mean, standardError }: Reference): void {
+/** Keeps a reference in a file. */
+export function writeReference(file: string, { width, height, mean, standardError }: Reference): void {
   writeFileSync(
     file,
     Buffer.concat(
@@ -132,7 +162,7 @@ function writeReference(file: string, { width, height, mean, standardError }: Re
   );
 }
 
-/** Reads what {@link makeReference} wrote. */
+/** Reads what {@link writeReference} wrote. */
 export function readReference(file: string | undefined): Reference {
   if (file === undefined) throw new BenchError('bench/missing-data', 'This scene needs a reference first.');
   const bytes = readFileSync(file);

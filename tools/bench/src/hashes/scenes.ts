@@ -252,6 +252,14 @@ const SURFACES: readonly HashCase[] = [
       }),
     options: { background: 'transparent' },
   },
+  {
+    name: 'catcher with soft shadows',
+    scene: () =>
+      stage({}, (scene) => {
+        scene.instances[2]!.catcher = true;
+      }),
+    options: { background: 'transparent', shadowSoftness: 0.5 },
+  },
 ];
 
 const LIGHTS: readonly HashCase[] = [
@@ -314,6 +322,7 @@ const LIGHTS: readonly HashCase[] = [
     options: { lightGroups: 'each' },
     relight: 0.5,
   },
+  { name: 'a guide', scene: () => createCornellBox(), options: { guiding: 0.01 } },
   { name: 'light groups off', scene: () => createCornellBox(), options: { lightGroups: 'off' } },
   {
     name: 'constant environment',

@@ -93,15 +93,16 @@ function environmentTexture(environment: Environment): { texture: DataTexture; i
 }
 
 /** Gives the loader decoded textures, which it would ask the browser for. */
-function decodedTextures(
-  glb: Uint8Array,
-): (parser: Parameters<Parameters<GLTFLoader['register']>[0]>[0]) => GltfPlugin {
+function decodedTextures({
+  glb,
+  textures,
+}: Task): (parser: Parameters<Parameters<GLTFLoader['register']>[0]>[0]) => GltfPlugin {
   const images = glbImages(glb);
   return (parser) => ({
     name: 'decoded-textures',
     async loadTexture(index) {
       const { source, sampler } = parser.json.textures![index]!;
-      const { width, height, data } = await decodePixels(images[source]!);
+      const { width, height, data } = await decodePixels(images[source]!, textures);
       const texture: Texture = new DataTexture(data, width, height, RGBAFormat);
       const settings = sampler === undefined ? {} : (parser.json.samplers?.[sampler] ?? {});
       texture.magFilter = texture.minFilter = settings.magFilter === 9728 ? NearestFilter : LinearFilter;
@@ -134,7 +135,7 @@ export async function createThreeGpuPathtracer(
   await renderer.init();
 
   const { scene: model } = await new GLTFLoader()
-    .register(decodedTextures(task.glb))
+    .register(decodedTextures(task))
     .parseAsync(task.glb.slice().buffer, '');
   const scene = new Scene();
   scene.add(model);

@@ -1,0 +1,127 @@
+import { estimated, timed, type Figure } from '../benchmark';
+import type { ProductMeasurement } from './measure';
+
+/** How many times less error at equal time is aimed at, over all products. */
+const AIM = 20;
+
+const mean = (values: readonly number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;
+const size = ({ width, height }: ProductMeasurement) => `${width} × ${height}`;
+const msPerSample = ({ runs }: ProductMeasurement) => runs.map(({ gpuMs, samples }) => gpuMs / samples);
+const relMsePerSample = ({ runs }: ProductMeasurement) => runs.map(({ relMse, samples }) => relMse * samples);
+
+/** Error × wall time of a sample: the noise alone, since a bias does not fall with time. */
+const noiseTime = ({ noise, runs }: ProductMeasurement) =>
+  mean(noise) * mean(runs.map(({ wallMs, samples }) => wallMs / samples));
+
+/** The other renderer's measurement of the same product at the same size. */
+const peerOf = (ours: ProductMeasurement, all: readonly ProductMeasurement[]) =>
+  all.find(
+    ({ renderer, product, width, height }) =>
+      renderer !== 'glanz' && product === ours.product && width === ours.width && height === ours.height,
+  );
+
+/** All figures of the measurements. `judge`: whether targets are stated. */
+export function figuresOf(all: readonly ProductMeasurement[], judge: boolean): Figure[] {
+  const figures: Figure[] = [];
+  const ratios: number[] = [];
+  for (const one of all) {
+    const name = `${one.product}, ${size(one)}${one.renderer === 'glanz' ? '' : `, ${one.renderer}`}`;
+    figures.push(
+      timed(`${name}: set-up`, 'ms', [one.setUpMs]),
+      timed(`${name}: ${one.stamped ? 'GPU' : 'wall'} time a sample`, 'ms', msPerSample(one)),
+      estimated(`${name}: relMSE × samples`, '1', relMsePerSample(one)),
+      timed(`${name}: noise × samples, of pairs of runs`, '1', one.noise),
+      estimated(
+        `${name}: brightness over the reference's`,
+        '1',
+        one.runs.map(({ brightness }) => brightness),
+      ),
+    );
+    if (one.reference) {
+      const { ownRelMse, ratio, ratio95 } = one.reference;
+      const checked = `${name}: brightness with other random numbers over the reference's`;
+      figures.push(
+        timed(`${name}: relMSE of the reference itself`, '1', [ownRelMse]),
+        // Few samples have no variance to make an interval of.
+        Number.isFinite(ratio95)
+          ? { name: checked, unit: '1', runs: 1, mean: ratio, ci95: ratio95 }
+          : timed(checked, '1', [ratio]),
+      );
+    }
+    const peer = one.renderer === 'glanz' ? peerOf(one, all) : undefined;
+    if (peer) {
+      const ratio = noiseTime(peer) / noiseTime(one);
+      if (Number.isFinite(ratio) && ratio > 0) ratios.push(ratio);
+      figures.push(timed(`${name}: noise × wall time, three-gpu-pathtracer's over Glanz's`, '×', [ratio]));
+    }
+  }
+  if (ratios.length > 0)
+    figures.push({
+      name: "noise × wall time, three-gpu-pathtracer's over Glanz's, geometric mean",
+      unit: '×',
+      runs: ratios.length,
+      min: Math.min(...ratios),
+      median: Math.exp(mean(ratios.map(Math.log))),
+      max: Math.max(...ratios),
+      ...(judge ? { target: { value: AIM, relation: '>=', source: 'error at equal time aimed at' } } : {}),
+    });
+  return figures;
+}
+
+const three = (value: number) => (Math.abs(value) >= 1000 ? value.toFixed(0) : String(Number(value.toPrecision(3))));
+
+/** The measurements as a table in Markdown, a line for each product and size. */
+export function productTable(all: readonly ProductMeasurement[]): string {
+  const head = [
+    'product',
+    'size',
+    'set-up, ms',
+    'ms a sample',
+    'relMSE × samples',
+    "reference's relMSE",
+    'peer: set-up, ms',
+    'ms a sample',
+    'relMSE × samples',
+    'noise × time, peer / Glanz',
+  ];
+  const columns = (one: ProductMeasurement) => [
+    three(one.setUpMs),
+    three(mean(msPerSample(one))),
+    three(mean(relMsePerSample(one))),
+  ];
+  const rows = all
+    .filter(({ renderer }) => renderer === 'glanz')
+    .map((one) => {
+      const peer = peerOf(one, all);
+      return [
+        one.product,
+        size(one),
+        ...columns(one),
+        one.reference ? one.reference.ownRelMse.toExponential(1) : '–',
+        ...(peer ? [...columns(peer), three(noiseTime(peer) / noiseTime(one))] : ['–', '–', '–', '–']),
+      ];
+    });
+  return [head, head.map(() => '---'), ...rows].map((row) => `| ${row.join(' | ')} |`).join('\n');
+}
+
+/** What a reader of the figures must know. */
+export function remarks(all: readonly ProductMeasurement[]): string[] {
+  const notes: string[] = [];
+  if (all.some(({ stamped }) => !stamped)) notes.push('no timestamp queries: GPU times are wall times');
+  for (const one of all) {
+    if (!one.reference) continue;
+    const where = `${one.product}, ${size(one)}`;
+    const error = mean(one.runs.map(({ relMseWithReference }) => relMseWithReference));
+    const share = one.reference.ownRelMse / error;
+    if (share > 0.1)
+      notes.push(
+        `${where}: the reference's own noise is ${(100 * share).toFixed(0)} % of what was measured; it is taken off, but raise --reference`,
+      );
+    const { outside, blocks, checkSamples } = one.reference;
+    if (outside > 0.03 * blocks)
+      notes.push(
+        `${where}: with other random numbers (${checkSamples} samples) ${outside} of ${blocks} blocks differ from the reference by more than three standard errors`,
+      );
+  }
+  return notes;
+}
