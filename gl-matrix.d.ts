@@ -18,6 +18,11 @@ declare module 'gl-matrix/esm/vec3.js' {
   export function scaleAndAdd(out: Triple, a: V, b: V, factor: number): Triple;
   /** Through a column-major 3 × 3 matrix. */
   export function transformMat3<Out extends GlMatrixOut>(out: Out, vector: V, m: V): Out;
+  /** Through a column-major 4 × 4 matrix, as a point. */
+  export function transformMat4(out: Triple, point: V, m: V): Triple;
+  /** Rotated by the unit quaternion xyzw. */
+  export function transformQuat(out: Triple, a: V, rotation: V): Triple;
+  export function normalize(out: Triple, a: V): Triple;
   export function distance(a: V, b: V): number;
   export function dot(a: V, b: V): number;
 }
@@ -28,6 +33,8 @@ declare module 'gl-matrix/esm/mat3.js' {
   /** The transpose of the cofactors. */
   export function adjoint<Out extends GlMatrixOut>(out: Out, m: M): Out;
   export function transpose<Out extends GlMatrixOut>(out: Out, m: M): Out;
+  /** The rotation of the unit quaternion xyzw. */
+  export function fromQuat<Out extends GlMatrixOut>(out: Out, rotation: M): Out;
   /** The upper left 3 × 3 of a 4 × 4 matrix. */
   export function fromMat4<Out extends GlMatrixOut>(out: Out, m: M): Out;
 }
@@ -45,4 +52,22 @@ declare module 'gl-matrix/esm/mat4.js' {
     translation: M,
     scale: M,
   ): Out;
+  export function fromTranslation<Out extends GlMatrixOut>(out: Out, translation: M): Out;
+  /** `m`, applied to what is first rotated about an axis by an angle in radians, scaled or translated. */
+  export function rotateX<Out extends GlMatrixOut>(out: Out, m: Out, radians: number): Out;
+  export function rotateY<Out extends GlMatrixOut>(out: Out, m: Out, radians: number): Out;
+  export function rotateZ<Out extends GlMatrixOut>(out: Out, m: Out, radians: number): Out;
+  export function scale<Out extends GlMatrixOut>(out: Out, m: Out, factors: M): Out;
+  export function translate<Out extends GlMatrixOut>(out: Out, m: Out, by: M): Out;
+}
+
+declare module 'gl-matrix/esm/quat.js' {
+  type Q = ArrayLike<number>;
+  type Quaternion = [number, number, number, number];
+  /** Degrees. @param order `zyx`: first about X, then Y, then Z. */
+  export function fromEuler(out: Quaternion, x: number, y: number, z: number, order: 'zyx'): Quaternion;
+  /** Radians about a unit axis. */
+  export function setAxisAngle(out: Quaternion, axis: Q, angle: number): Quaternion;
+  /** a · b: b first, then a. */
+  export function multiply(out: Quaternion, a: Q, b: Q): Quaternion;
 }
