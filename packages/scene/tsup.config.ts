@@ -1,3 +1,3 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts', studio: 'src/studio.ts' });
+export default glanzPackage({ index: 'src/index.ts', studio: 'src/studio.ts', node: 'src/node.ts' });

@@ -1,13 +1,17 @@
 import type { Scene } from '@glanz/scene';
-import { decodeWithSharp } from './decode-with-sharp';
+import { decodeImageFile } from '@glanz/scene/node';
 import { FormatError } from './error';
 import { readObj, type ObjOptions } from './obj';
-import type { ResourceReader } from './resources';
+import type { ImageDecoder, ResourceReader } from './resources';
 import { readStl } from './stl';
 import { readUsd } from './usd/read';
 
 /** Options for {@link loadModelFile}. */
 export type LoadModelOptions = Omit<ObjOptions, 'read' | 'name'>;
+
+/** Decodes images with the optional package `sharp`. @throws {FormatError} `formats/missing-decoder` without it. */
+const decodeImageInNode: ImageDecoder = (bytes) =>
+  decodeImageFile(bytes, (message, options) => new FormatError('formats/missing-decoder', message, options));
 
 /**
  * Whether a file's name is one of those that {@link loadModelFile} reads: `.obj`, `.stl`, `.usdz`, `.usdc`, `.usda`,
@@ -59,7 +63,7 @@ export async function loadModelFile(path: string | URL, options: LoadModelOption
       return undefined;
     }
   };
-  const { decodeImage = decodeWithSharp } = options;
+  const { decodeImage = decodeImageInNode } = options;
   if (/\.usd[acz]?$/i.test(file)) return readUsd(bytes, { name, read, decodeImage, ...(signal ? { signal } : {}) });
   return readObj(bytes, { ...options, decodeImage, name, read });
 }

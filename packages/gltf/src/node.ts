@@ -1,7 +1,8 @@
 import type { Scene } from '@glanz/scene';
+import { decodeImageFile } from '@glanz/scene/node';
 import type { GltfDecoders } from './document';
 import { GltfError } from './error';
-import type { DecodedImage, ImageDecoder } from './decoded-image';
+import type { ImageDecoder } from './decoded-image';
 import { ktx2Decoder } from './ktx2';
 import { buildScene, type GltfOptions } from './load';
 import { animationsOf, type OpenAnimationsOptions, type ScenePoser } from './poser';
@@ -21,24 +22,13 @@ async function optional<T>(load: () => Promise<T>, name: string, what: string): 
 }
 
 /**
- * Decodes PNG, JPEG, WebP and what else the optional package `sharp` knows.
- * @throws {GltfError} `gltf/missing-decoder` if it is not installed.
+ * Decodes a PNG, JPEG or WebP file, or another format that the optional package `sharp` reads: RGBA, 8 bits a channel,
+ * straight alpha. A colour profile and an orientation in the file are ignored, as glTF requires (3.8.1).
+ *
+ * @throws {GltfError} `gltf/missing-decoder` if `sharp` is not installed.
  */
-export const decodeImage: ImageDecoder = async (bytes): Promise<DecodedImage> => {
-  const { default: sharp } = await optional(() => import('sharp'), 'sharp', 'Decoding images in Node');
-  // Colour profiles and orientation do not count in glTF (3.8.1); the limit on size keeps a small file from filling the
-  // memory.
-  const { data, info } = await sharp(bytes, { ignoreIcc: true, limitInputPixels: 16384 * 16384 })
-    .toColourspace('srgb')
-    .ensureAlpha()
-    .raw({ depth: 'uchar' })
-    .toBuffer({ resolveWithObject: true });
-  return {
-    width: info.width,
-    height: info.height,
-    data: new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset, data.byteLength),
-  };
-};
+export const decodeImage: ImageDecoder = (bytes) =>
+  decodeImageFile(bytes, (message, options) => new GltfError('gltf/missing-decoder', message, options));
 
 /** The transcoder that `three` brings along. It is a script, neither a module nor CommonJS where it lies. */
 async function openBasis(): Promise<unknown> {

@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { validateScene, type Scene } from '@glanz/scene';
+import sharp from 'sharp';
 import { describe, expect, test } from 'vitest';
-import { decodeWithSharp } from '../../src/decode-with-sharp';
 import { loadModelFile } from '../../src/node';
 import { readCrate } from '../../src/usd/crate';
 import type { UsdLayer } from '../../src/usd/layer';
@@ -15,6 +15,10 @@ const text = (file: string) => readFileSync(new URL(`./${file}`, import.meta.url
 const said = JSON.parse(text('said.json')) as {
   readonly world: Readonly<Record<string, readonly (readonly number[])[]>>;
   readonly values: Readonly<Record<string, number | string | boolean | readonly (number | string)[]>>;
+};
+const decode = async (file: Uint8Array) => {
+  const { data, info } = await sharp(file).ensureAlpha().raw().toBuffer({ resolveWithObject: true });
+  return { width: info.width, height: info.height, data: new Uint8Array(data) };
 };
 const color = readStoredZip(bytes('model.usdz')).get('0/color.png')!;
 
@@ -53,12 +57,11 @@ describe.each([
 });
 
 const loaded: Readonly<Record<string, () => Promise<Scene>>> = {
-  'a USDZ with a binary layer': () =>
-    readUsd(bytes('model.usdz'), { name: 'model.usdz', decodeImage: decodeWithSharp }),
+  'a USDZ with a binary layer': () => readUsd(bytes('model.usdz'), { name: 'model.usdz', decodeImage: decode }),
   'a text layer with its image beside it': () =>
     readUsd(bytes('model.usda'), {
       name: 'model.usda',
-      decodeImage: decodeWithSharp,
+      decodeImage: decode,
       read: (path) => Promise.resolve(path === 'textures/color.png' ? color : undefined),
     }),
 };
