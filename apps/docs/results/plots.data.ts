@@ -1,4 +1,4 @@
-// The plot that each page of results begins with: what the benchmarks' files in this folder say, as bars.
+// The bar chart at the start of each results page, from the benchmarks' files in this folder.
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineLoader } from 'vitepress';
@@ -12,7 +12,7 @@ interface Bar {
   readonly kind: 'ours' | 'other' | 'limit';
 }
 
-/** Bars that are compared with each other, on a scale of their own. */
+/** Bars that are compared with each other, on a common scale. */
 interface Group {
   readonly label: string;
   readonly bars: readonly Bar[];
@@ -105,7 +105,7 @@ function loading(): Plot {
     };
   };
   return {
-    question: 'How long does it take from a file to a scene, in Chromium?',
+    question: 'How long does it take to load a file as a scene, in Chromium?',
     better: 'lower',
     groups: details.rows
       .filter(({ place }) => place === 'address')
@@ -127,7 +127,7 @@ function furnace(): Plot {
     100 * Math.max(...whole.filter(({ name }) => name.startsWith(kind)).map(({ mean }) => Math.abs(1 - mean!)));
   const limit = 100 * figure('largest distance from 1').target!.value;
   return {
-    question: 'How much light do white spheres in white light lose, over all roughnesses?',
+    question: 'How far from 1 is the light that white spheres reflect in a white furnace, at worst?',
     better: 'lower',
     groups: [
       {
@@ -144,7 +144,7 @@ function furnace(): Plot {
 function materials(): Plot {
   const { furnace: rows } = read('openpbr') as { furnace: Readonly<Record<string, { min: number; max: number }>> };
   const error = (name: string) => 100 * Math.max(Math.abs(1 - rows[name]!.min), Math.abs(rows[name]!.max - 1));
-  // Measured with its own code, as the table below has them.
+  // Measured with its own code; the same values as in the table of the page.
   const others: readonly (readonly [string, number])[] = [
     ['metal', 3.5],
     ['glass', 1.6],
@@ -152,10 +152,10 @@ function materials(): Plot {
     ['stretched metal, anisotropy 0.9', 23],
   ];
   return {
-    question: 'How far from 1 is what a white surface gives back in white light, at worst?',
+    question: 'How far from 1 is the directional albedo of a white surface, at worst?',
     better: 'lower',
     groups: others.map(([name, other]) => ({
-      label: name,
+      label: name.replace('stretched', 'anisotropic'),
       bars: [bar('@glanz/openpbr', error(name), '%', 'ours'), bar('three-gpu-pathtracer 0.0.26', other, '%', 'other')],
     })),
   };
@@ -170,7 +170,7 @@ function reliability(): Plot {
     };
   };
   return {
-    question: 'Of all injected faults, how many are survived?',
+    question: 'How many of the injected faults does Glanz survive?',
     better: 'higher',
     groups: [
       ['tracer', 'the tracer, in Node'],
@@ -182,7 +182,7 @@ function reliability(): Plot {
         label: label!,
         bars: [
           { label: 'survived', value: survived, text: survived.toLocaleString('en'), kind: 'ours' as const },
-          { label: 'tried', value: tried, text: tried.toLocaleString('en'), kind: 'limit' as const },
+          { label: 'injected', value: tried, text: tried.toLocaleString('en'), kind: 'limit' as const },
         ],
       };
     }),

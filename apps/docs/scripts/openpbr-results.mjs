@@ -1,4 +1,4 @@
-// Makes results/openpbr.md and results/openpbr.json of what the tests measured:
+// Writes results/openpbr.md and results/openpbr.json from the measurements of the tests:
 //   GLANZ_RESULTS=$PWD/out/openpbr GLANZ_PROOFS=full npx vitest run --project openpbr test/proofs.test.ts
 //   test/furnace.test.ts test/oracle.test.ts
 //   node apps/docs/scripts/openpbr-results.mjs out/openpbr
@@ -9,10 +9,10 @@ import { fileURLToPath } from 'node:url';
 const at = (path) => fileURLToPath(new URL(path, import.meta.url));
 const folder = process.argv[2];
 if (!folder) {
-  process.stderr.write('openpbr-results: name the folder that GLANZ_RESULTS was\n');
+  process.stderr.write('openpbr-results: pass the folder that GLANZ_RESULTS named\n');
   process.exit(1);
 }
-// What a folder lacks stays as it was on the page.
+// Where the folder lacks a file, the page keeps its former values.
 const before = existsSync(at('../results/openpbr.json'))
   ? JSON.parse(readFileSync(at('../results/openpbr.json'), 'utf8'))
   : {};
@@ -23,8 +23,8 @@ const read = (name) =>
 const data = { oracle: read('oracle'), furnace: read('furnace'), proofs: read('proofs') };
 
 /**
- * White furnaces of others, measured with their own code: three-gpu-pathtracer 0.0.26 in its renderer; openpbr-bsdf
- * a29da96 by sums of its samples' weights.
+ * White furnace tests of other implementations, run with their own code: three-gpu-pathtracer 0.0.26 by rendering,
+ * openpbr-bsdf a29da96 by the mean weight of its samples.
  */
 const OTHERS = {
   metal: ['−3.5 %', '0.997 to 1.003'],
@@ -42,6 +42,12 @@ const OTHERS = {
   'stretched metal, anisotropy 0.9': ['−23 %', '0.994 to 1.029'],
   'stretched glass, anisotropy 0.9': ['', '0.962 to 1.000, anisotropy 0.8'],
 };
+/** The name of a test as the page shows it. */
+const label = (name) =>
+  name
+    .replace('(ours by choice)', '(deliberate)')
+    .replace(/^stretched /, 'anisotropic ')
+    .replace(/^paper$/, 'thin-walled diffuse');
 const number = (value, digits = 4) => (value === undefined ? '' : value.toFixed(digits));
 const percent = (value) => `${(100 * value).toFixed(1)} %`;
 const table = (head, rows) =>
@@ -54,7 +60,7 @@ const table = (head, rows) =>
 const furnace = table(
   ['surface', 'min', 'max', 'three-gpu-pathtracer', 'openpbr-bsdf'],
   Object.entries(data.furnace).map(([name, { min, max }]) => [
-    name,
+    label(name),
     number(min),
     number(max),
     ...(OTHERS[name] ?? ['', '']),
@@ -69,7 +75,7 @@ const oracle = table(
   Object.entries(data.oracle)
     .filter(([name]) => !name.startsWith('albedo: '))
     .map(([name, row]) => [
-      name,
+      label(name),
       row.class,
       row.pairs,
       row.median === undefined ? '' : percent(row.median),
@@ -91,32 +97,32 @@ const page = `---
 title: OpenPBR, measured
 ---
 
-<!-- Made by scripts/openpbr-results.mjs of what the tests of @glanz/openpbr measured; do not edit. -->
+<!-- Written by scripts/openpbr-results.mjs from the measurements of the tests of @glanz/openpbr; do not edit. -->
 
 # OpenPBR, measured
 
 <ResultPlot of="openpbr" />
 
-What the tests of [\`@glanz/openpbr\`](/packages/openpbr) find; how much was tried is said with each. The functions measured are those [on the CPU](/api/openpbr/cpu), in double precision; other tests hold the shaders to them within 10⁻⁴.
+Results of the tests of [\`@glanz/openpbr\`](/packages/openpbr), each with the number of cases tested. They measure the functions [on the CPU](/api/openpbr/cpu), in double precision; other tests compare the shaders with these functions, to within 10⁻⁴.
 
 ## White furnace
 
-White surfaces in uniform light should give back all of it: 1. The minimum and the maximum found, over ${sizes?.roughnesses.length ?? ''} roughnesses from ${sizes?.roughnesses[0] ?? ''} to ${sizes?.roughnesses.at(-1) ?? ''} and ${sizes?.cosines.length ?? ''} angles down to cosine ${sizes?.cosines.at(-1) ?? ''}, by deterministic quadrature that is itself good to 0.001. Seen along the normal from inside of glass the quadrature is good to 0.012 only, and that angle is left out; surfaces of an index below 1 are seen from cosine 0.97 instead. Stretched metal, glass and dielectrics over diffuse have quadratures of their own, good to 0.0002, and glass is seen along the normal there too; the means of samples' weights agree with them. In the other columns what we measured of three-gpu-pathtracer 0.0.26, by rendering, and of Adobe's openpbr-bsdf, by its samples' weights; empty where we did not.
+A white surface in uniform light must reflect all of it: its directional albedo is 1. The table shows the minimum and the maximum of the directional albedo over ${sizes?.roughnesses.length ?? ''} roughnesses from ${sizes?.roughnesses[0] ?? ''} to ${sizes?.roughnesses.at(-1) ?? ''} and ${sizes?.cosines.length ?? ''} viewing angles down to a cosine of ${sizes?.cosines.at(-1) ?? ''}, by deterministic quadrature with an error of up to 0.001. Glass seen from inside along the normal is left out, since the quadrature has an error of 0.012 there; surfaces with an index of refraction below 1 are seen from a cosine of 0.97 instead. Anisotropic metal, glass, and dielectrics over diffuse have quadratures of their own with an error of up to 0.0002, which include glass along the normal; the mean weights of samples agree with them. The other columns are measurements of three-gpu-pathtracer 0.0.26, by rendering, and of Adobe's openpbr-bsdf, by the mean weight of its samples. An empty cell was not measured.
 
 ${furnace}
 
-${materials ? `${materials.materials} random white materials of all lobes, without stretched highlights and rough diffuse, 3 angles each: ${number(materials.min)} to ${number(materials.max)}.` : ''}
+${materials ? `${materials.materials} random white materials with all lobes, without anisotropy and rough diffuse, at 3 angles each: ${number(materials.min)} to ${number(materials.max)}.` : ''}
 
-Stretched highlights: what metal loses by single scattering is tabulated over roughness, anisotropy and both angles, and comes back reciprocally; for dielectrics it is summed over facets as they are seen: from outside over 32 of those that mirror upwards and 40 of all, from inside over 160, within the critical angle and within what mirrors upwards. Indices below 1 over something opaque, and those near 1 from inside, are summed over 96 of those, for the viewer, for the light, and for the mean over all directions at 16 of them.
+Anisotropic highlights: the energy that metal loses by single scattering is tabulated over roughness, anisotropy and both angles, and is added as a reciprocal lobe. For dielectrics it is a sum over visible microfacets: from outside over 32 that reflect into the upper hemisphere and over 40 of all; from inside over 160, within the critical angle and among those that reflect into the upper hemisphere. For an index of refraction below 1 over an opaque base, and near 1 from inside, the sums have 96 terms: for the viewing direction, for the light direction, and for the mean over all directions at 16 of them.
 
 ## Samples against their density
 
-Chi-squared of histograms over 320 equal parts of the sphere, significance 0.01 with Šidák's correction; a lobe fails if its minimum probability falls below the limit.
+Chi-squared tests of histograms over 320 cells of equal solid angle, at a significance of 0.01 with Šidák's correction. A lobe fails if the smallest p-value of its settings is below the limit.
 
 ${table(
-  ['lobe', 'settings', 'samples each', 'minimum probability', 'limit'],
+  ['lobe', 'settings', 'samples each', 'smallest p-value', 'limit'],
   chi.map(([name, row]) => [
-    name.slice(13),
+    label(name.slice(13)),
     row.settings,
     row.samples.toLocaleString('en'),
     row.min.toExponential(1),
@@ -124,25 +130,25 @@ ${table(
   ]),
 )}
 
-${densities.length ? `The integral of the density, and the part of the samples that a facet sends to where there is nothing, make 1 within ${percentOf(Math.max(...densities.map(([, row]) => row.worst)))} for each of these settings.` : ''} The density integrates to no more than ${number(Math.max(materials?.density ?? 0, ...Object.values(data.furnace).map((row) => row.density ?? 0)))} anywhere above.
+${densities.length ? `For each of these settings, the integral of the density plus the fraction of samples that fail, because a microfacet reflects them below the surface, is 1 to within ${percentOf(Math.max(...densities.map(([, row]) => row.worst)))}.` : ''} In none of the cases above does the density integrate to more than ${number(Math.max(materials?.density ?? 0, ...Object.values(data.furnace).map((row) => row.density ?? 0)))}.
 
 ## Reciprocity
 
-${reciprocity ? `Single scattering of opaque materials without coat, fuzz and film: ${reciprocity.pairs.toLocaleString('en')} random materials, each with a random pair of directions; the largest relative difference of f(a, b) and f(b, a) is ${reciprocity.worst.toExponential(1)}.` : ''} What bounces among the facets of dielectrics leaves evenly, and coats, fuzz and diffuse light below a film are scaled by what they reflect towards the viewer: those are not reciprocal.
+${reciprocity ? `Single scattering of opaque materials without coat, fuzz and film: ${reciprocity.pairs.toLocaleString('en')} random materials, each with a random pair of directions; the largest relative difference of f(a, b) and f(b, a) is ${reciprocity.worst.toExponential(1)}.` : ''} Three parts are not reciprocal: multiple scattering of dielectrics, which leaves as a diffuse lobe; coats and fuzz; and the diffuse base below a thin film. The last two scale what is below them by their reflectance for the viewing direction only.
 
-## Finite
+## Finite values
 
 ${finite ? `${finite.materials.toLocaleString('en')} random materials with parameters at the ends of their ranges, ${finite.directions} pairs of directions each, down to the horizon: no value, density or weight is NaN, infinite or negative.` : ''}
 
 ## Against an independent implementation
 
-Values f(ω_o, ω_i) · cos θ_i of Adobe's openpbr-bsdf, brought to height-correlated masking. Rows that say so differ by choice, for the reasons below. Class S is determined by the specification, and every pair must be within the limit (relative, or absolute); R is its recommended model; I leaves the choice to implementations, and the limits hold for the median and the 90th percentile of |a − b| / max(a, b, 0.02). Large worst values are where one of both is nearly dark.
+Compares f(ω_o, ω_i) · cos θ_i with Adobe's openpbr-bsdf, whose values are converted to height-correlated masking. Rows marked “deliberate” differ by choice, for the reasons below. In class S the specification determines the result, and every pair of directions must be within the limit (relative or absolute). Class R is the model that the specification recommends. Class I is left to the implementation; the limits apply to the median and the 90th percentile of |a − b| / max(a, b, 0.02). The worst values are large where one of the two values is nearly zero.
 
 ${oracle}
 
 ${
   albedos.length
-    ? `The reflected and transmitted parts of uniform light are within the limits too, of every setting, but for these, which differ by choice:
+    ? `The reflected and the transmitted fraction of uniform light are also within the limits for every setting, except these, which differ deliberately:
 
 ${table(
   ['setting', 'angles', 'beyond the limit', 'largest difference', 'limit'],
@@ -157,13 +163,14 @@ ${table(
     : ''
 }
 
-Where we differ, and why:
+Where the two implementations differ, and why:
 
-- **Multiple scattering**: the light that bounces among facets leaves by a lobe of its own and evenly, there by lobes that avoid the normal; that is most of the difference of rough metals and glasses, and all of that of \`glass_dispersion\`.
-- **Thin walls** (\`glass_thin_*\`, \`kitchen_thin\`, by choice): there rough walls lose or make up to 58 % of the light; here what goes through is a narrower lobe, since two refractions mostly undo each other, and white walls of any kind give back all. Paper (\`sss_thin\`): there it gives back up to 9 % more than it gets.
-- **Thin film**: there at three wavelengths; here over the visible spectrum. Rows without a remark are evaluated at the three; over the spectrum the parts of uniform light differ by up to 0.11 from those (\`film_bubble\` near the horizon), and by less than the limit where the view is steep.
-- **Coat**: rougher below by the rule proposed for the next version of the specification; darkening by the reflectance at the viewer's angle.
-- **Fuzz** does not roughen the coat below it. \`eon_half_weight\`: base_weight is outside of EON, as in the specification's text; there it is part of the colour, and what bounces in the rough surface is darker.
+- **Multiple scattering** between microfacets leaves as a diffuse lobe in Glanz, and in lobes with little light near the normal in openpbr-bsdf. This is most of the difference for rough metals and glass, and all of it for \`glass_dispersion\`.
+- **Thin walls** (\`glass_thin_*\`, \`kitchen_thin\`, deliberate): in openpbr-bsdf rough thin walls lose or gain up to 58 % of the light. In Glanz the transmission lobe is narrower, since the two refractions mostly cancel, and every white thin wall conserves energy. Thin-walled diffuse (\`sss_thin\`): openpbr-bsdf returns up to 9 % more light than arrives.
+- **Thin film**: openpbr-bsdf evaluates three wavelengths, Glanz the visible spectrum. Rows without “over the spectrum” evaluate the same three wavelengths. Over the spectrum, the fractions of uniform light differ from those by up to 0.11 (\`film_bubble\` near the horizon), and by less than the limit near the normal.
+- **Coat**: Glanz increases the roughness of the base by the rule proposed for the next version of the specification, and computes the darkening from the reflectance at the viewing angle.
+- **Fuzz** does not increase the roughness of the coat below it.
+- **\`eon_half_weight\`**: in Glanz base_weight scales the EON lobe, as in the specification's text. In openpbr-bsdf it is part of the colour, so that interreflection in the rough surface is darker.
 `;
 writeFileSync(at('../results/openpbr.json'), `${JSON.stringify(data, undefined, 1)}\n`);
 writeFileSync(at('../results/openpbr.md'), page.replace(/\n{3,}/g, '\n\n'));

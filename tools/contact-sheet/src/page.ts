@@ -14,7 +14,7 @@ export function html(rows: readonly Row[], size: number, samples: number): strin
   const cell = ({ id, name, note, error, warnings, triangles }: Row) =>
     `<figure class="${error === undefined ? (warnings.length > 0 ? 'warned' : '') : 'failed'}"><a href="#${escape(id)}">${error === undefined ? `<img src="images/${escape(id)}.png" width="${size}" height="${size}" alt="">` : '<div></div>'}</a><figcaption title="${escape(note)}${NOTES[name] ? ` — ${escape(NOTES[name])}` : ''}">${escape(name)}<br><small>${triangles.toLocaleString('en')} triangles</small></figcaption></figure>`;
   const entry = ({ id, name, error, warnings, badSamples }: Row) =>
-    `<h3 id="${escape(id)}">${escape(name)}</h3><ul>${error === undefined ? '' : `<li class="failed">${escape(error)}</li>`}${badSamples > 0 ? `<li>${badSamples} samples were not numbers</li>` : ''}${warnings.map((warning) => `<li>${escape(warning)}</li>`).join('')}</ul>`;
+    `<h3 id="${escape(id)}">${escape(name)}</h3><ul>${error === undefined ? '' : `<li class="failed">${escape(error)}</li>`}${badSamples > 0 ? `<li>${badSamples} samples were NaN or infinite</li>` : ''}${warnings.map((warning) => `<li>${escape(warning)}</li>`).join('')}</ul>`;
   return `<!doctype html><meta charset="utf-8"><title>Contact sheet</title>
 <style>body{font:13px system-ui;margin:16px;background:#1b1c1e;color:#ddd}main{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;width:${Math.max(size, 110)}px;overflow-wrap:anywhere}figure div{width:${size}px;height:${size}px;background:#511}.failed{color:#f77}.warned figcaption{color:#fc6}img{image-rendering:pixelated}a{color:inherit}</style>
 <h1>${rows.length} models</h1><p>${size} × ${size}, ${samples} samples. ${rows.filter(({ error }) => error !== undefined).length} failed, ${reported.length} with warnings or errors.</p>
@@ -41,38 +41,38 @@ export function assetsMarkdown(rows: readonly Row[], size: number, samples: numb
   return [
     '# Test models',
     '',
-    `${rows.length} real models, most of them Khronos samples, each loaded by \`loadGltfFile\`, framed from the front right in the neutral studio and rendered at ${size} × ${size} with ${samples} samples on a software GPU: **${failed.length} failed, ${rows.filter(({ badSamples }) => badSamples > 0).length} with samples that are no numbers, ${reported.length} with warnings**. The models are no part of the project, and many of their licences forbid images of them here; \`npm run contact-sheet -- FOLDER\` makes the sheet of any folder, with images, and this page by \`--pages\`.`,
+    `${rows.length} real models, most of them Khronos samples, each loaded with \`loadGltfFile\`, framed from the front right in the neutral studio, and rendered at ${size} × ${size} with ${samples} samples on a software GPU: **${failed.length} failed, ${rows.filter(({ badSamples }) => badSamples > 0).length} with NaN or infinite samples, ${reported.length} with warnings**. The models are not part of the project, and many of their licences do not allow images of them here. \`npm run contact-sheet -- FOLDER\` renders a contact sheet of any folder; with \`--pages\` it writes this page.`,
     '',
     '## What looks different, and why',
     '',
-    'Beside the images that rasterisers make of the same files:',
+    'Compared with the images that rasterisers render of the same files:',
     '',
     '| model | |',
     '| --- | --- |',
     ...rows.flatMap(({ name }) => (NOTES[name] ? [`| ${cell(name)} | ${cell(NOTES[name])} |`] : [])),
     '',
-    'Everywhere: light that bounces, shadows of glass, reflections of the model in itself; noise, at so few samples. Baked occlusion is not used, since the real one is there.',
+    'In every image: indirect light, shadows of glass, reflections of the model in itself, and noise, because there are only a few samples. Occlusion textures are not used, since occlusion is computed.',
     '',
     '## Warnings',
     '',
-    'A triangle without area, which nothing can hit, is reported by `validateScene` (`scene/degenerate`); nothing is lost by it. `gltf/primitive` reports points and lines, and of triangles that were turned round.',
+    '`scene/degenerate`, from `validateScene`, reports a triangle without area. No ray can hit it, so the image does not change. `gltf/primitive` reports points and lines, which are not rendered, and triangles whose winding was reversed.',
     '',
     '| model | |',
     '| --- | --- |',
     ...reported.map(
       ({ name, warnings, badSamples }) =>
-        `| ${cell(name)} | ${summary(warnings)}${badSamples > 0 ? `; ${badSamples} samples that were no numbers` : ''} |`,
+        `| ${cell(name)} | ${summary(warnings)}${badSamples > 0 ? `; ${badSamples} NaN or infinite samples` : ''} |`,
     ),
     '',
-    '## All',
+    '## All models',
     '',
-    'How long loading takes is measured on a page of its own: [Loading](/results/loading).',
+    'For loading times see [Loading](/results/loading).',
     '',
-    '| model | exercises | triangles | result |',
+    '| model | features | triangles | result |',
     '| --- | --- | --: | --- |',
     ...rows.map(
       ({ name, note, triangles, error, warnings }) =>
-        `| ${cell(name)} | ${cell(note)} | ${triangles.toLocaleString('en')} | ${error === undefined ? (warnings.length > 0 ? 'with warnings' : 'as it should be') : cell(error)} |`,
+        `| ${cell(name)} | ${cell(note)} | ${triangles.toLocaleString('en')} | ${error === undefined ? (warnings.length > 0 ? 'with warnings' : 'no warnings') : cell(error)} |`,
     ),
     '',
   ].join('\n');

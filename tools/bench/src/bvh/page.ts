@@ -3,24 +3,24 @@ import { join } from 'node:path';
 import { geometricMean } from '../loading/report';
 import { TINYBVH } from './tinybvh';
 
-/** Smallest, middle and largest of repeated times, milliseconds. */
+/** Minimum, median and maximum of repeated times, milliseconds. */
 export interface Spread {
   readonly min: number;
   readonly median: number;
   readonly max: number;
 }
 
-/** A mesh with every builder's times, costs, and what diffuse rays look at. */
+/** A mesh with the build times, the tree costs and the traversal cost of diffuse rays, by builder. */
 export interface MeshRow {
   readonly name: string;
   readonly triangles: number;
   readonly times: Readonly<Record<string, Spread>>;
   readonly costs: Readonly<Record<string, number>>;
-  /** Nodes and triangles per diffuse ray. */
+  /** Nodes and triangles that a diffuse ray visits, mean. */
   readonly diffuse: Readonly<Record<string, number>>;
 }
 
-/** What the page of the docs is made of. */
+/** The data of the documentation page. */
 export interface BvhDetails {
   readonly runs: number;
   readonly rows: readonly MeshRow[];
@@ -38,7 +38,7 @@ export interface BvhDetails {
   };
 }
 
-/** What was tried against brute force. */
+/** Results of the comparison with brute force. */
 export interface BruteDetails {
   readonly seed: number;
   readonly scenes: number;
@@ -87,7 +87,7 @@ const SAH = 'three-mesh-bvh SAH',
   SAH_10 = 'three-mesh-bvh SAH, leaves of 10',
   CENTER = 'three-mesh-bvh CENTER';
 
-/** How many times as long as tinybvh's our builds take, linked by three-mesh-bvh's times, each way that there is. */
+/** Build times of `balanced` over those of tinybvh, estimated through three-mesh-bvh's times: see {@link TINYBVH}. */
 export function overTinybvh(
   rows: readonly MeshRow[],
 ): { readonly mesh: string; readonly byCenter: number; readonly bySah: number }[] {
@@ -112,11 +112,11 @@ const table = (head: readonly string[], rows: readonly (readonly string[])[]) =>
     ...rows.map((row) => `| ${row.join(' | ')} |`),
   ].join('\n');
 
-/** Least times of a builder over those of `balanced`, mesh by mesh. */
+/** Minimum times of a builder over those of `balanced`, mesh by mesh. */
 const ratiosOf = (rows: readonly MeshRow[], name: string) =>
   rows.map((row) => row.times[name]!.min / row.times['balanced']!.min);
 
-/** Times beside three-mesh-bvh's, and what is made of them. */
+/** Times and tree costs beside three-mesh-bvh's, with their ratios. */
 function beside(rows: readonly MeshRow[]): string {
   const sah = ratiosOf(rows, SAH),
     center = ratiosOf(rows, CENTER);
@@ -144,12 +144,12 @@ function beside(rows: readonly MeshRow[]): string {
     ]),
   )}
 
-- SAH : balanced, geometric mean **${times(geometricMean(sah))}**, least **${times(Math.min(...sah))}** (asked: 4×, never under 3×)
-- CENTER : balanced, geometric mean **${times(geometricMean(center))}** (asked: 1×)
-- cost of balanced : SAH, geometric mean **${geometricMean(costs).toFixed(3)}** (asked: at most 1)`;
+- SAH : balanced, geometric mean **${times(geometricMean(sah))}**, minimum **${times(Math.min(...sah))}** (target: mean at least 4×, every mesh at least 3×)
+- CENTER : balanced, geometric mean **${times(geometricMean(center))}** (target: at least 1×)
+- cost of balanced : SAH, geometric mean **${geometricMean(costs).toFixed(3)}** (target: at most 1)`;
 }
 
-/** What diffuse rays look at in the trees of all builders, and how long those take. */
+/** Traversal cost of diffuse rays in the trees of all builders, and build times. */
 function buildersTable(rows: readonly MeshRow[]): string {
   const shown = ['balanced', 'fast', 'best', 'best-split', SAH, CENTER];
   const relative = (name: string) => {
@@ -164,7 +164,7 @@ function buildersTable(rows: readonly MeshRow[]): string {
         ...shown.map((name) => `${row.diffuse[name]!.toFixed(1)} in ${digits(row.times[name]!.min)} ms`),
       ]),
       [
-        'time : balanced, geometric mean (least – most)',
+        'time : balanced, geometric mean (min – max)',
         ...shown.map((name) => (name === 'balanced' ? '1' : relative(name))),
       ],
     ],
@@ -185,36 +185,36 @@ function threadsList({
 }: BvhDetails['threads']): string {
   return `With ${mesh}:
 
-- first build in a fresh thread ${digits(cold)} ms, further ones ${spread(warm)} ms: **${times(cold / warm.median)}** (asked: at most 2×)
-- one mesh on one worker ${spread(alone)} ms, on two together ${spread(together)} ms: **${times(alone.min / together.min)}** as fast (asked: 1.6×)
-- four such meshes on one worker ${spread(one)} ms, on two ${spread(two)} ms: **${times(one.min / two.min)}** as fast (asked: 1.6×)${
+- first build in a new thread ${digits(cold)} ms, later builds ${spread(warm)} ms: **${times(cold / warm.median)}** (target: at most 2×)
+- one mesh: ${spread(alone)} ms on one worker, ${spread(together)} ms on two workers that build it together: **${times(alone.min / together.min)}** as fast (target: at least 1.6×)
+- four such meshes: ${spread(one)} ms on one worker, ${spread(two)} ms on two: **${times(one.min / two.min)}** as fast (target: at least 1.6×)${
     parts
       ? `
-- ${parts.name} on one worker ${spread(parts.one)} ms, on two ${spread(parts.two)} ms: **${times(parts.one.min / parts.two.min)}** as fast (asked: 1.6×)`
+- ${parts.name}: ${spread(parts.one)} ms on one worker, ${spread(parts.two)} ms on two: **${times(parts.one.min / parts.two.min)}** as fast (target: at least 1.6×)`
       : ''
   }
-- in slices on the main thread ${spread(sliced)} ms, the longest slice ${spread(longest)} ms (asked: at most 16)`;
+- in slices on the main thread: ${spread(sliced)} ms, longest slice ${spread(longest)} ms (target: at most 16 ms)`;
 }
 
 function tinyList(rows: readonly MeshRow[]): string {
   const tiny = overTinybvh(rows);
   return `${table(
-    ['mesh', 'linked by CENTER', 'linked by SAH with leaves of 10'],
+    ['mesh', 'estimate through CENTER', 'estimate through SAH, leaves of 10'],
     tiny.map(({ mesh, byCenter, bySah }) => [mesh, times(byCenter), times(bySah)]),
   )}
 
-Geometric mean: **${times(geometricMean(tiny.flatMap(({ byCenter, bySah }) => [byCenter, bySah])))}** of tinybvh's AVX2 time (asked: at most 2×).`;
+Geometric mean: \`balanced\` takes **${times(geometricMean(tiny.flatMap(({ byCenter, bySah }) => [byCenter, bySah])))}** the time of tinybvh's AVX2 builder (target: at most 2×).`;
 }
 
 /** Meshes of parts, as CAD programs write them. */
 const CAD_LIKE = /push-button|CAD/;
 
-/** What rays save in the trees of `best`. */
+/** How many visits diffuse rays save in the trees of `best`. */
 function gains(rows: readonly MeshRow[]): string {
   const of = (some: readonly MeshRow[]) =>
     (1 - geometricMean(some.map(({ diffuse }) => diffuse['best']! / diffuse['balanced']!))) * 100;
   const parts = rows.filter(({ name }) => CAD_LIKE.test(name));
-  return `In meshes of parts (${parts.map(({ name }) => name).join(', ')}) diffuse rays look at **${of(parts).toFixed(1)} %** less in trees of \`best\` than in those of \`balanced\` (asked: 15 %).`;
+  return `In CAD-like meshes, which consist of many parts (${parts.map(({ name }) => name).join(', ')}), diffuse rays visit **${of(parts).toFixed(1)} %** fewer nodes and triangles in trees of \`best\` than in those of \`balanced\` (target: at least 15 %).`;
 }
 
 /** The page of the documentation. */
@@ -232,21 +232,21 @@ export function bvhMarkdown(
 
 <ResultPlot of="bvh" />
 
-How long [@glanz/bvh](../packages/bvh) builds, beside [three-mesh-bvh](https://github.com/gkjohnson/three-mesh-bvh) on the same meshes in the same process, in turns, one thread, after a first round that does not count. Median (least – largest) of ${runs} builds; ratios are of the least times. SAH has leaves of 4 triangles as ours have; one evaluator gives the surface area cost of all trees (1 a node, 1 a triangle).
+Build times of [@glanz/bvh](../packages/bvh) and [three-mesh-bvh](https://github.com/gkjohnson/three-mesh-bvh) on the same meshes, in one process and on one thread. The builders alternate, after one warm-up round that is not counted. Times are the median (minimum – maximum) of ${runs} builds, ratios those of the minimum times. \`balanced\` is the default builder of @glanz/bvh; SAH and CENTER are split strategies of three-mesh-bvh, SAH with leaves of up to 4 triangles, as \`balanced\` has. The cost of a tree is its surface area cost, with 1 per node and 1 per triangle, by the same formula for all builders.
 
 ${beside(rows)}
 
 ## Builders
 
-Nodes and triangles that a diffuse ray looks at (counted, the same rays for all), and least times.
+Mean number of nodes and triangles that a diffuse ray visits (the same rays for all builders), and the minimum build time.
 
 ${buildersTable(rows)}
 
 ${gains(rows)}
 
-## Beside C++
+## Compared with C++
 
-tinybvh's AVX2 builder does not run here: three-mesh-bvh links it. Ours over tinybvh's is three-mesh-bvh's over tinybvh's, measured once on one machine, over three-mesh-bvh's over ours in this run.
+tinybvh's AVX2 builder is not part of this run. Its times are estimated through three-mesh-bvh: the ratio of three-mesh-bvh's time to tinybvh's was measured once, on another machine, and is divided by the ratio of three-mesh-bvh's time to \`balanced\` in this run.
 
 ${tinyList(rows)}
 
@@ -256,7 +256,7 @@ ${threadsList(threads)}
 ${
   alone?.details
     ? `
-With several meshes, as scenes have them, two workers share the builds; of one mesh each takes the next part of every stage. By themselves, on ${alone.machine.cpu}, ${alone.machine.cores} cores, Node ${alone.machine.node}, commit ${alone.machine.commit ?? 'unknown'}, ${alone.machine.date.slice(0, 10)}, a machine that others shared:
+Where there are several meshes, each worker builds whole meshes. One mesh is built by both: in every stage, each worker takes the next part that is not yet done. The same measurements by themselves, without the builds above in the same run, on ${alone.machine.cpu}, ${alone.machine.cores} cores, Node ${alone.machine.node}, commit ${alone.machine.commit ?? 'unknown'}, ${alone.machine.date.slice(0, 10)}, on a shared machine:
 
 ${threadsList(alone.details.threads)}
 `
@@ -264,9 +264,9 @@ ${threadsList(alone.details.threads)}
 }${
     brief?.details
       ? `
-## Scanned and CAD meshes too
+## With scanned and CAD meshes
 
-\`balanced\` beside three-mesh-bvh alone, on ${brief.machine.cpu}, ${brief.machine.cores} cores, Node ${brief.machine.node}, commit ${brief.machine.commit ?? 'unknown'}, ${brief.machine.date.slice(0, 10)}${(brief.notes ?? []).map((note) => `; ${note}`).join('')}.
+\`balanced\` and three-mesh-bvh only, on ${brief.machine.cpu}, ${brief.machine.cores} cores, Node ${brief.machine.node}, commit ${brief.machine.commit ?? 'unknown'}, ${brief.machine.date.slice(0, 10)}${(brief.notes ?? []).map((note) => `; ${note}`).join('')}.
 
 ${beside(brief.details.rows)}
 
@@ -278,7 +278,7 @@ ${threadsList(brief.details.threads)}
       ? `
 ## Two cores
 
-The same on ${small.machine.cpu}, ${small.machine.cores} cores, Node ${small.machine.node}, commit ${small.machine.commit ?? 'unknown'}, ${small.machine.date.slice(0, 10)}. Two workers have no core to spare there: the thread that asked for the build, the compiler and the system take their time from them.
+The same on ${small.machine.cpu}, ${small.machine.cores} cores, Node ${small.machine.node}, commit ${small.machine.commit ?? 'unknown'}, ${small.machine.date.slice(0, 10)}. Two workers leave no core free there: the main thread, the JIT compiler and the system run on the same cores.
 
 ${beside(small.details.rows)}
 
@@ -296,7 +296,7 @@ ${threadsList(small.details.threads)}
       ? `
 ## Against brute force
 
-${brute.details.rays.toLocaleString('en')} rays through ${brute.details.scenes.toLocaleString('en')} random scenes from 1 mm to 10 km, every builder in turn, each ray against every triangle: **${brute.details.wrong} wrong** on the CPU; ${brute.details.gpuRays.toLocaleString('en')} of them in WGSL as well, in both layouts: **${brute.details.gpuWrong} wrong**. \`npm run bench -- bvh-brute --seed ${brute.details.seed}\`, ${brute.machine.date.slice(0, 10)}, commit ${brute.machine.commit ?? 'unknown'}; other seeds, other scenes.
+${brute.details.rays.toLocaleString('en')} rays through ${brute.details.scenes.toLocaleString('en')} random scenes of 1 mm to 10 km, with every builder in turn. Each hit is compared with an intersection of the ray with every triangle: **${brute.details.wrong} wrong hits** on the CPU. ${brute.details.gpuRays.toLocaleString('en')} of the rays are traced in WGSL too, in both layouts: **${brute.details.gpuWrong} wrong hits**. \`npm run bench -- bvh-brute --seed ${brute.details.seed}\`, ${brute.machine.date.slice(0, 10)}, commit ${brute.machine.commit ?? 'unknown'}. Other seeds give other scenes.
 `
       : ''
   }${
@@ -305,10 +305,10 @@ ${brute.details.rays.toLocaleString('en')} rays through ${brute.details.scenes.t
       : `
 ## The paper's table
 
-Setting up the hierarchy of a push-button in three resolutions, everything up to buffers that can be uploaded; strahl (2025) does so by three-mesh-bvh's CENTER split. Mean ± half of the 95 % interval of 30 runs.
+The time to build the hierarchy of a push-button at three resolutions, including the buffers for the GPU. The paper's system, strahl (2025), uses three-mesh-bvh's CENTER strategy. Mean ± half of the 95 % confidence interval of 30 runs.
 
 ${table(
-  ['what', 'mean ± 95 %'],
+  ['measurement', 'mean ± 95 %'],
   shown.map(({ name, unit, mean, ci95 }) => [
     name,
     unit === '1' ? `${times(mean!)} ± ${ci95!.toFixed(2)}` : `${digits(mean!)} ± ${digits(ci95!)} ${unit}`,
@@ -318,11 +318,11 @@ ${table(
 Measured on ${paper!.machine.cpu}, Node ${paper!.machine.node}, commit ${paper!.machine.commit ?? 'unknown'}, ${paper!.machine.date.slice(0, 10)}.
 `
   }
-Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data are in \`bvh.json\`${brief ? ', `bvh-brief.json` (`--brief yes`)' : ''}${alone ? ', `bvh-threads.json` (`--threads yes`)' : ''}${small ? ' and `bvh-two-cores.json` (`--two-cores yes`)' : ''}${shown.length === 0 ? '' : ' and `paper-cpu.json`'}.
+Measured on ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}. \`npm run bench -- bvh --pages apps/docs/results\` and \`npm run bench -- paper-cpu --pages apps/docs/results\` write this page; the data is in \`bvh.json\`${brief ? ', `bvh-brief.json` (`--brief yes`)' : ''}${alone ? ', `bvh-threads.json` (`--threads yes`)' : ''}${small ? ' and `bvh-two-cores.json` (`--two-cores yes`)' : ''}${shown.length === 0 ? '' : ' and `paper-cpu.json`'}.
 `;
 }
 
-/** Writes a report into the folder, and the page from all that is there. */
+/** Writes a report into the folder, and the page from all reports in it. Returns the paths of the files written. */
 export function writeBvhPage(
   name: 'bvh' | 'bvh-brief' | 'bvh-threads' | 'bvh-two-cores' | 'bvh-brute' | 'paper-cpu',
   report: object,

@@ -103,7 +103,7 @@ function overallLine(
 /** The report as markdown, without a heading of its own. */
 export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeReport): string {
   const { budgetsMs, scenes, size, runs } = details;
-  const where = `${gpu?.name ?? 'unknown GPU'}${gpu?.software ? ', **a software GPU: these figures say nothing about real ones**' : ''}, ${machine.cpu}, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}`;
+  const where = `${gpu?.name ?? 'unknown GPU'}${gpu?.software ? ', **a software GPU: these figures do not predict those of a real one**' : ''}, ${machine.cpu}, Node ${machine.node}, commit ${machine.commit ?? 'unknown'}, ${machine.date.slice(0, 10)}`;
   const facts = scenes.flatMap(({ name }) =>
     (['glanz', PEER, PEER_DEFAULTS] as const).flatMap((contestant) => {
       const m = measurementOf(details, name, contestant);
@@ -126,25 +126,30 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     }),
   );
   return [
-    `Measured on ${where}. ${size} × ${size} pixels, ${runs} independent run${runs === 1 ? '' : 's'}, one of the peer with its defaults${quick ? '; **a quick run, no measurement**' : ''}.`,
+    `Measured on ${where}. ${size} × ${size} pixels, ${runs} independent run${runs === 1 ? '' : 's'}, one of three-gpu-pathtracer with its defaults${quick ? '; **a quick run, not a measurement**' : ''}.`,
     '',
-    'How many times lower the error of Glanz is at equal GPU time, geometric mean over scenes and times:',
+    'The ratio of the error of three-gpu-pathtracer to that of Glanz at equal GPU time, geometric mean over scenes and times:',
     '',
-    ...overallLine(details, PEER, 'relMSE against the reference set, their biased options off', ofReferences('relMSE')),
+    ...overallLine(
+      details,
+      PEER,
+      'relMSE against the reference set, biased options of three-gpu-pathtracer off',
+      ofReferences('relMSE'),
+    ),
     ...overallLine(details, PEER, 'the same at equal wall time', ofReferences('relMSE'), 'wallMs'),
     ...overallLine(details, PEER, 'noise alone, all scenes', always('noise')),
     ...overallLine(details, PEER, 'FLIP against the reference set', ofReferences('FLIP')),
     ...overallLine(
       details,
       PEER_DEFAULTS,
-      'relMSE against the reference set, the peer as its users get it',
+      'relMSE against the reference set, three-gpu-pathtracer with its defaults',
       ofReferences('relMSE'),
     ),
-    ...overallLine(details, PEER_DEFAULTS, 'FLIP, the peer as its users get it', ofReferences('FLIP')),
+    ...overallLine(details, PEER_DEFAULTS, 'FLIP, three-gpu-pathtracer with its defaults', ofReferences('FLIP')),
     '',
     '## Error by GPU time, biased options off',
     '',
-    'Glanz : three-gpu-pathtracer (times lower). relMSE; for the two product scenes noise alone, since no independent reference says whose material model is right there.',
+    'relMSE of Glanz : relMSE of three-gpu-pathtracer (ratio). For the two product scenes it is the noise alone: they have no independent reference that could decide between the two material models.',
     '',
     ...comparisonTable(details, PEER, fairQuantity),
     '',
@@ -156,9 +161,9 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
     '',
     ...comparisonTable(details, PEER, ofReferences('FLIP')),
     '',
-    '## The peer as its users get it',
+    '## With the defaults of three-gpu-pathtracer',
     '',
-    'With the clamp and the blurred gloss that it has on by default: less noise, and an image that does not converge to the truth. relMSE, then FLIP.',
+    'By default three-gpu-pathtracer clamps radiance and widens sharp lobes. This lowers the noise, but the image does not converge to the reference. The first table is relMSE, the second FLIP.',
     '',
     ...comparisonTable(details, PEER_DEFAULTS, ofReferences('relMSE')),
     '',
@@ -212,25 +217,25 @@ function panels(details: EqualTimeDetails, quantity: (scene: SceneInfo) => Quant
 
 const PAGE_HEAD = `# Error at equal time
 
-How wrong is an image after a second? Glanz beside [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the path tracer for three.js: its WebGPU wavefront tracer, on three r185. Both get the same .glb file, camera, size, depth and environment, each in a process of its own, one after another on one GPU, with warm pipelines.
+The error of an image after a given GPU time, for Glanz and for [three-gpu-pathtracer](https://github.com/gkjohnson/three-gpu-pathtracer) 0.0.26, the path tracer for three.js (its WebGPU wavefront tracer, on three r185). Both render the same .glb file with the same camera, size, depth and environment. Each runs in a process of its own, one after the other on the same GPU, with pipelines compiled before the measurement.
 
 `;
 
-/** What the plots show; after them, so that the answer comes first. */
-const PAGE_NOTES = `- **References.** Small scenes of a reference set whose images were made by another renderer, with their standard errors; images are rendered larger and joined to the reference's 128 × 128 pixels. For two product scenes a long render of Glanz, made of two independent halves and checked with other random numbers.
-- **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences in what a material means do not count.
-- **FLIP.** What an eye notices when it flips between image and reference, after Andersson et al. 2020, on tone-mapped images.
-- **GPU time.** By timestamps around every submission; the clock's own cost is subtracted, in favour of who submits often. The peer is measured in its best batching, all pixels' paths in flight, and without its preview.
-- **Fairness.** Everything that trades truth for smoothness is off in the peer (clamps, blurred gloss); a second table has it on, as its users get it. Glanz has its defaults: it has no such options on.
-- strahl 0.1.0 is not here: it has no textures, and its estimator (BSDF sampling alone: no light is sampled) is no setting of Glanz, so it cannot be emulated. Its time per sample is a target of the benchmark \`paper-gpu\`.
+/** The explanation of the plots; it follows them, so that the answer comes first. */
+const PAGE_NOTES = `- **References.** Small scenes whose reference images were made by another renderer, with standard errors; images are rendered at a larger size and averaged down to the reference's 128 × 128 pixels. For two product scenes the reference is a long render of Glanz in two independent halves, checked with other random numbers.
+- **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences between the material models do not count.
+- **FLIP.** The perceived difference when a viewer flips between the image and the reference (Andersson et al. 2020), on tone-mapped images.
+- **GPU time.** By timestamp queries around every submission. The cost of the queries is subtracted, which favours a renderer that submits often. three-gpu-pathtracer runs with its fastest batch size, the paths of all pixels in flight, and without its preview.
+- **Biased options.** The options of three-gpu-pathtracer that lower noise at the cost of bias (clamping, widened sharp lobes) are off; a further table has its defaults, with them on. Glanz runs with its defaults, in which no biased option is on.
+- **strahl 0.1.0** is not compared here: it has no textures, and it samples the BSDF only, never the lights, which no setting of Glanz does. Its time per sample is a target of the benchmark \`paper-gpu\`.
 
 `;
 
 const PAGE_FOOT = `
-Again: \`npm run bench -- equal-time --json FILE --pages apps/docs/results\`; the data are in \`apps/docs/results/equal-time.json\`.
+\`npm run bench -- equal-time --json FILE --pages apps/docs/results\` writes this page; the data is in \`apps/docs/results/equal-time.json\`.
 `;
 
-/** Writes the page `equal-time.md` with its plots and its data into a folder, and gives the names of the files. */
+/** Writes the page `equal-time.md` with its plots and its data into a folder. Returns the paths of the files. */
 export function writePages(report: EqualTimeReport, folder: string): string[] {
   mkdirSync(folder, { recursive: true });
   const { details, gpu } = report;

@@ -5,11 +5,11 @@ import type { Contestant } from './models';
 export const WORK = {
   waiting: 'waiting for images, workers and the file',
   decoder: 'Draco and meshopt (WebAssembly)',
-  tangents: 'tangents, normals, lengths of vectors',
-  checks: 'checks of the document and its numbers',
+  tangents: 'tangents, normals, normalisation',
+  checks: 'validation',
   own: 'the loader itself',
-  browser: 'the browser (reading, copying, handing over images)',
-  collector: 'collecting garbage',
+  browser: 'the browser (reading, copying, transferring images)',
+  collector: 'garbage collection',
 } as const;
 
 export type Work = keyof typeof WORK;

@@ -3,32 +3,32 @@ import { join } from 'node:path';
 import { CONTESTANTS, type Contestant } from './models';
 import { WORK, type Shares, type Work } from './profile';
 
-/** Where loads were measured. */
+/** The environments in which loads are measured. */
 export const PLACES = {
-  address: 'Chromium, from an address on the same machine',
+  address: 'Chromium, from a URL on the same machine',
   bytes: 'Chromium, from the bytes of the file in memory',
   node: 'Node, from the bytes of the file in memory',
 } as const;
 
 export type Place = keyof typeof PLACES;
 
-/** Smallest, middle and largest of repeated times, milliseconds. */
+/** Minimum, median and maximum of repeated times, milliseconds. */
 export interface Spread {
   readonly min: number;
   readonly median: number;
   readonly max: number;
 }
 
-/** What was measured of a model at a place. */
+/** The times of a model in one environment. */
 export interface LoadingRow {
   readonly model: string;
   readonly place: Place;
   readonly times: Readonly<Partial<Record<Contestant, Spread>>>;
-  /** Longest task of the page's own thread, milliseconds of that thread's time; from an address only. */
+  /** Longest task of the main thread, milliseconds of its CPU time; measured for loads from a URL only. */
   readonly blocks?: Readonly<Partial<Record<Contestant, Spread>>>;
 }
 
-/** What the page is made of. */
+/** The data of the documentation page. */
 export interface LoadingDetails {
   readonly three: string;
   readonly browser: string;
@@ -54,7 +54,7 @@ export interface LoadingReport {
 export const geometricMean = (values: readonly number[]): number =>
   Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
 
-/** How many times longer three.js takes, middle over middle, geometric mean over the models. */
+/** Ratio of three.js's median time to the contestant's, geometric mean over the models. */
 export function speedUp(
   rows: readonly LoadingRow[],
   place: Place,
@@ -69,10 +69,10 @@ export function speedUp(
 const digits = (ms: number) => (ms < 10 ? ms.toFixed(1) : ms.toFixed(0));
 const spread = (s: Spread | undefined) => (s ? `${digits(s.median)} (${digits(s.min)} – ${digits(s.max)})` : '–');
 
-/** The shares of a load that no loader that uses the same decoders and the same browser can save. */
+/** The share of a load's time that any loader with the same decoders and browser needs. */
 const fixedShare = (shares: Shares) => shares.waiting + shares.decoder + shares.browser;
 
-/** Where the time goes, and how fast the loader would be if all that is its own took none. */
+/** Where the time goes, and how fast the loader would be if its own code took no time. */
 function profileSection({ rows, profiles, profiled }: LoadingDetails): string[] {
   if (!profiles) return [];
   const kinds = Object.keys(WORK) as Work[];
@@ -95,7 +95,7 @@ function profileSection({ rows, profiles, profiled }: LoadingDetails): string[] 
   return [
     '## Where the time goes',
     '',
-    `Shares of the calling thread's time, sampled every tenth of a millisecond while a model is loaded from memory in Chromium again and again. What waits for others (images decoded by the browser, Draco in three.js's workers) is waiting; what the browser does on this thread itself is the browser's: with three.js's options for images that is a pass over all pixels.${profiled ? ` Commit ${profiled.commit ?? 'unknown'}, ${profiled.date.slice(0, 10)}.` : ''}`,
+    `Shares of the main thread's time while a model is loaded repeatedly from memory in Chromium, sampled every 0.1 ms. The first column is time in which the thread waits, for images that the browser decodes or for Draco in three.js's workers. The column of the browser is work that the browser does on this thread; with the image options of three.js this includes a pass over all pixels.${profiled ? ` Commit ${profiled.commit ?? 'unknown'}, ${profiled.date.slice(0, 10)}.` : ''}`,
     '',
     `| model | | ${kinds.map((kind) => WORK[kind]).join(' | ')} |`,
     `| --- | --- | ${kinds.map(() => '--:').join(' | ')} |`,
@@ -104,7 +104,7 @@ function profileSection({ rows, profiles, profiled }: LoadingDetails): string[] 
       `| | three.js | ${kinds.map((kind) => percent(three[kind])).join(' | ')} |`,
     ]),
     '',
-    `So of a load by Glanz the decoders and the browser have most in the models where there is something to wait for. Were checks, tangents and all else of the loader's own free, three.js ÷ loadGltf from memory would be ${bounds.map(({ model, now, bound }) => `${bound.toFixed(2)}× instead of ${now.toFixed(2)}× (${model})`).join(', ')}; of the models that take three.js more than 20 ms, **${geometricMean(large.map(({ bound }) => bound)).toFixed(2)}×** in the geometric mean.`,
+    `Where a load waits for images or other threads, most of the time that Glanz needs is spent in decoders and the browser. If the loader's own work (checks, tangents and the rest) took no time, three.js ÷ loadGltf from memory would be ${bounds.map(({ model, now, bound }) => `${bound.toFixed(2)}× instead of ${now.toFixed(2)}× (${model})`).join(', ')}; for the models that take three.js more than 20 ms, the geometric mean would be **${geometricMean(large.map(({ bound }) => bound)).toFixed(2)}×**.`,
     '',
   ];
 }
@@ -138,30 +138,30 @@ export function loadingMarkdown({ machine, details }: LoadingReport): string {
     '',
     '<ResultPlot of="loading" />',
     '',
-    `How long does it take from a glTF file to a scene that can be rendered? Glanz beside three.js ${three}: \`GLTFLoader\` with its \`DRACOLoader\` and \`MeshoptDecoder\`. Five models: large images (DamagedHelmet), Draco (chess-board), meshopt (pirate, bunny), many parts with images (lamborghini).`,
+    `The time from a glTF file to a scene that can be rendered, with Glanz and with three.js ${three}: \`GLTFLoader\` with its \`DRACOLoader\` and \`MeshoptDecoder\`. The five models have large images (DamagedHelmet), Draco compression (chess-board), meshopt compression (pirate, bunny), and many parts with images (lamborghini).`,
     '',
-    '**What is compared.** Both loaders end with every image decoded and every vertex unpacked, neither has put anything on a graphics card. In a browser both leave decoded images as `ImageBitmap`s, so no pixel passes through JavaScript. What differs:',
+    '**What is compared.** Both loaders finish with every image decoded and all vertex data decompressed; neither uploads anything to the GPU. In a browser both return images as `ImageBitmap`s, so no pixels pass through JavaScript. The differences:',
     '',
-    '- Glanz checks what it reads (every index, every float, every byte range; broken files are a scene with a warning or a typed error), brings vectors to length 1 and makes MikkTSpace tangents where a material needs them and the file has none (DamagedHelmet). three.js does none of it; its shaders make up tangents.',
-    '- Glanz decodes the images that a path tracer looks at; three.js also those of baked occlusion.',
-    "- `GltfWorker` does everything in one worker, which stays ready between loads. three.js unpacks Draco in up to four workers and all the rest on the page's own thread.",
-    '- In Node three.js gets what it expects of a browser: `createImageBitmap` made of the same `sharp` that Glanz uses, and a Draco decoder of the same package without workers.',
+    '- Glanz validates the file: every index, every float, every byte range. A broken file gives a scene with warnings or a typed error. It also normalises vectors, and generates MikkTSpace tangents where a material needs them and the file has none (DamagedHelmet). three.js does none of this; its shaders derive tangents from screen-space derivatives.',
+    '- Glanz decodes only the images that a path tracer uses; three.js also decodes occlusion textures.',
+    '- `GltfWorker` loads in one worker, which is kept between loads. three.js decompresses Draco in up to four workers and does everything else on the main thread.',
+    '- In Node, three.js gets a `createImageBitmap` that uses `sharp`, as Glanz does, and the same Draco decoder without workers.',
     '',
-    `Taken in turns, ${runs} loads each after one that does not count; middle (smallest – largest). ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, Chromium ${browser}${machine.commit ? `, commit ${machine.commit.slice(0, 7)}` : ''}, ${machine.date.slice(0, 10)}. Data: \`loading.json\`; again with \`npm run bench -- gltf --pages apps/docs/results\`.`,
+    `The loaders alternate, with ${runs} loads each after one warm-up load that is not counted. Times are the median (minimum – maximum). ${machine.cpu}, ${machine.cores} cores, Node ${machine.node}, Chromium ${browser}${machine.commit ? `, commit ${machine.commit.slice(0, 7)}` : ''}, ${machine.date.slice(0, 10)}. \`npm run bench -- gltf --pages apps/docs/results\` writes this page; the data is in \`loading.json\`.`,
     '',
     '## Time to a scene',
     '',
     ...(Object.keys(PLACES) as Place[]).flatMap(table),
-    'The aim, half as fast again in the mean, is not reached. Why:',
+    'The target, a geometric mean of at least 1.5×, is not reached. The reasons:',
     '',
-    "- Both use the same decoders (the browser's JPEG, Draco's and meshopt's own WebAssembly), and those take most of the time. What Glanz wins, it wins by decoding images while geometry is unpacked, by asking for them without the pass over the pixels that colour options cost (profiles are taken out of the bytes instead), and by not decoding what is not looked at. The largest image alone bounds DamagedHelmet.",
-    '- Draco (chess-board): three.js unpacks its eight meshes side by side in up to four workers. Glanz does so too where there are threads for it (`decoders.dracoWorkers`, and in a worker of its own three threads or more); these times are of two cores and, with `loadGltf`, without such workers.',
-    '- Small files and plain geometry (pirate, bunny): from an address they take about as long as the server and the copy of the bytes. From memory Glanz is slower by what its checks cost: about 3 ms for the 144,046 triangles of the bunny.',
+    "- Both use the same decoders (the browser's JPEG, Draco's and meshopt's own WebAssembly), which take most of the time. Glanz is faster because it decodes images while it decompresses geometry, because it removes colour profiles from the bytes of an image rather than request a colour conversion, which costs a pass over all pixels, and because it does not decode images that are not used. For DamagedHelmet, the time to decode its largest image is a lower bound.",
+    '- Draco (chess-board): three.js decompresses the eight meshes in parallel in up to four workers. Glanz does the same with `decoders.dracoWorkers`, and in `GltfWorker` where the machine has at least three threads. Here there are two cores, and `loadGltf` runs without such workers.',
+    '- Small files and plain geometry (pirate, bunny): from a URL, most of the time is the transfer of the bytes. From memory Glanz is slower by the cost of its checks: about 3 ms for the 144,046 triangles of the bunny.',
     '',
     ...profileSection(details),
-    '## How long the page stands still',
+    '## How long the main thread is blocked',
     '',
-    "Longest task of the page's own thread during a load, in milliseconds of its time on the processor. A frame has 16.",
+    'Longest task of the main thread during a load, in milliseconds of CPU time of that thread. A frame at 60 Hz lasts 16.7 ms.',
     '',
     `| model | ${names.map((name) => CONTESTANTS[name]).join(' | ')} |`,
     `| --- | ${names.map(() => '--:').join(' | ')} |`,
