@@ -104,10 +104,10 @@ export class App {
         onError: (error, retry) => app.#fail(error, retry),
         onRecovered: (samples) => {
           app.#messages.clearErrors();
-          const now = samples > 0 ? `keeps its ${samples} samples` : 'starts again';
+          const now = samples > 0 ? `keeps its ${samples} samples` : 'starts from the first sample';
           app.#messages.show({
             kind: 'note',
-            text: `The GPU was lost and is back; the image ${now}.`,
+            text: `The GPU was lost and has been restored; the image ${now}.`,
             code: 'playground/recovered',
           });
         },

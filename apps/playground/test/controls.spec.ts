@@ -135,7 +135,7 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
     expect((await red()) - rest).toBeGreaterThan(0.1 * Math.min(1, moment));
   }).toPass();
 
-  await page.getByLabel('Animation', { exact: true }).selectOption('At rest');
+  await page.getByLabel('Animation', { exact: true }).selectOption('Rest pose');
   await expect(async () => {
     await finished(page);
     expect(Math.abs((await red()) - rest)).toBeLessThan(0.1);

@@ -67,9 +67,9 @@ test('images of few samples are denoised, on the screen and in PNG files, until 
   const [restarts, samples] = [await dataOf(page, 'restarts'), await dataOf(page, 'samples')];
 
   // A layer is no denoised image.
-  await page.getByLabel('Show', { exact: true }).selectOption('normal');
+  await page.getByLabel('Layer', { exact: true }).selectOption('normal');
   await expect.poll(() => status(page)).not.toContain('denoised');
-  await page.getByLabel('Show', { exact: true }).selectOption('beauty');
+  await page.getByLabel('Layer', { exact: true }).selectOption('beauty');
   await expectDenoised(page, true);
 
   await page.getByRole('checkbox', { name: 'Denoise' }).uncheck();

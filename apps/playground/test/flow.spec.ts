@@ -148,7 +148,7 @@ test('a model from file to file: converge, material, variant, .mtlx, a bad file,
   expect((await halves(page)).left[2]).toBeGreaterThan(1.4 * storm.left[2]);
   await restarting(page, () => page.keyboard.press('Control+Shift+Z'));
   expect((await halves(page)).left[0]).toBeGreaterThan(1.4 * storm.left[2]);
-  await restarting(page, () => page.getByLabel('Variant', { exact: true }).selectOption('As made'));
+  await restarting(page, () => page.getByLabel('Variant', { exact: true }).selectOption('Default'));
   await expect(page.locator('#material option:checked')).toHaveText('cloth');
   await page.evaluate(() => {
     const list = document.querySelector<HTMLSelectElement>('#material')!;

@@ -58,11 +58,11 @@ test('a link names the files that it cannot hold, when it is made and when it is
   const opened = await decodeLink(await encodeLink(content));
   expect(opened).toEqual({ ...content, files: { environment: 'sky.exr', images: 2 } });
   for (const text of [textForSender(content, true), textForReceiver(opened!, true)])
-    expect(text).toContain('the model "chair.glb", the environment "sky.exr" and 2 changes of images on materials');
+    expect(text).toContain('the model "chair.glb", the environment "sky.exr" and 2 changed textures on materials');
   // Links that were made before name no file.
   expect(
     textForReceiver((await decodeLink(await encodeLink({ model: 'a', state: { environment: 'file' } })))!, false),
-  ).toContain('made with the environment, which it does not hold. Drop that file');
+  ).toContain('created with the environment, which it does not contain. Drop that file');
   // What an address says is read with care.
   const spoiled = await decodeLink(
     await encodeLink({ model: 'a', state: {}, files: { environment: 'x'.repeat(1000), images: -1 } }),

@@ -30,7 +30,7 @@ test('with Ctrl one more, with Shift a range; the colour is that of all, as one 
   expect(await chosen()).toEqual(['Left wall', 'Right wall']);
   await expect(part('Right wall')).toHaveAttribute('aria-current', 'true');
   await expect(page.locator('#material-part')).toHaveText(
-    'Picked: Right wall and 1 more, 2 materials; edits apply to all.',
+    'Selected: Right wall and 1 more, 2 materials; edits apply to all.',
   );
   await expect(page.locator('#outline')).toHaveAttribute('data-part', '2 1');
   const before = await swatch('Left wall').evaluate((one) => getComputedStyle(one).backgroundColor);

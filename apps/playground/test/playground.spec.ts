@@ -53,7 +53,7 @@ test('a model of another address is shown; one that is missing is reported, and 
 
   await page.route('**/models/gone.glb', (route) => route.fulfill({ status: 404 }));
   await open(page, 'model=models/gone.glb&scale=0.25&samples=1&max-depth=2');
-  await expect(errorWith(page, 'playground/model-address')).toContainText('the server answered 404');
+  await expect(errorWith(page, 'playground/model-address')).toContainText('the server responded with status 404');
   expect(await dataOf(page, 'sample')).toBe('push-button');
   complaints = complaints.filter((text) => !text.includes('404'));
 });
@@ -254,7 +254,7 @@ test.describe('one page', () => {
     // The left wall, between the margin and the back wall.
     await canvasOf(page).click({ position: { x: 70, y: 250 } });
     await expect(page.locator('#material option:checked')).toHaveText('red');
-    await expect(page.locator('#material-part')).toHaveText('Picked: Left wall');
+    await expect(page.locator('#material-part')).toHaveText('Selected: Left wall');
 
     await restarting(page, () => page.locator('#parameter-base_color').fill('#2030ff'));
     const blue = await photograph(canvasOf(page));
@@ -304,7 +304,7 @@ test.describe('one page', () => {
   test('layers: the walls have the normals that they must have, and materials have colours of their own', async () => {
     await tab(page, 'Render');
     const layer = async (name: string) => {
-      await page.getByLabel('Show', { exact: true }).selectOption(name);
+      await page.getByLabel('Layer', { exact: true }).selectOption(name);
       await expect(canvasOf(page)).toHaveAttribute('data-layer', name);
       await finished(page);
       return photograph(canvasOf(page));
@@ -484,13 +484,13 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   await expect(page.locator('#share-note')).toContainText('red room.hdr');
   await page.locator('#copy-link').click();
   await expect(page.locator('#messages [role=status]', { hasText: 'on the clipboard' })).toContainText(
-    'does not hold the environment "red room.hdr"',
+    'does not contain the environment "red room.hdr"',
   );
   const link = await page.evaluate(() => navigator.clipboard.readText());
   await page.goto('about:blank');
   await openAt(page, `${origin}/?model=cornell-box${new URL(link).hash}`);
   await expect(page.locator('[data-code="playground/link-file"]')).toContainText(
-    'made with the environment "red room.hdr"',
+    'created with the environment "red room.hdr"',
   );
   await tab(page, 'Light');
   await expect(page.locator('#environment option:checked')).toHaveText('red room.hdr (not loaded)');

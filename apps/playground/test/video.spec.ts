@@ -208,7 +208,7 @@ test('a camera walk goes through the views that were added; they are steps of un
   await tab(page, 'Camera');
   const note = page.locator('#walk-note');
   await page.getByRole('button', { name: 'Add this view' }).click();
-  await expect(note).toContainText('a walk needs two');
+  await expect(note).toContainText('a camera walk needs two');
   await page.getByRole('button', { name: 'Top', exact: true }).click();
   await page.getByRole('button', { name: 'Add this view' }).click();
   await expect(note).toHaveText('2 views.');

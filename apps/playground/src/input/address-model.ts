@@ -14,17 +14,17 @@ export async function fetchModel(address: string): Promise<ModelRequest> {
   try {
     url = new URL(address, location.href);
   } catch (cause) {
-    throw wrong('it is not an address', cause);
+    throw wrong('the address is not a valid URL', cause);
   }
   const entry = decodeURIComponent(url.pathname.split('/').at(-1) ?? '');
   if (!/^https?:$/.test(url.protocol) || !/\.(glb|gltf|obj|stl|usd[acz]?)$/i.test(entry))
-    throw wrong('its address must begin with https:// and end in .glb, .gltf, .obj, .stl or .usdz');
+    throw wrong('its URL must begin with https:// and end in .glb, .gltf, .obj, .stl or .usdz');
   let response: Response;
   try {
     response = await fetch(url);
   } catch (cause) {
     throw wrong('the server cannot be reached, or does not allow other pages to read it (CORS)', cause);
   }
-  if (!response.ok) throw wrong(`the server answered ${response.status}`);
+  if (!response.ok) throw wrong(`the server responded with status ${response.status}`);
   return { kind: 'files', entry, files: new Map([[entry, await response.blob()]]) };
 }

@@ -19,7 +19,7 @@ export async function readImage(file: File): Promise<Image> {
   } catch {
     throw new PlaygroundError(
       'playground/image',
-      `"${file.name}" is not an image that this browser can read: use PNG, JPEG, WebP or AVIF.`,
+      `"${file.name}" is not an image that this browser can decode: use PNG, JPEG, WebP or AVIF.`,
     );
   }
 }

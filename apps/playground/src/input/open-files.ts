@@ -70,5 +70,5 @@ async function openMaterial(
   if (!target) return;
   replaceMaterials(store, scene()?.materials ?? [], [index], parameters, `MaterialX "${name}"`, slots);
   clearErrors();
-  show({ kind: 'note', text: [`"${name}" is now on "${target.name}".`, ...notes.slice(0, 1)].join(' ') });
+  show({ kind: 'note', text: [`The material "${name}" replaces "${target.name}".`, ...notes.slice(0, 1)].join(' ') });
 }

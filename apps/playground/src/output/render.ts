@@ -8,7 +8,13 @@ import { fileName, imageAsExr, imageAsPng, type Behind } from './save';
 const FORMATS: readonly RenderFormat[] = [
   { id: 'png', title: 'PNG, 8 bits', extension: 'png', type: 'image/png', alpha: true },
   { id: 'png-16', title: 'PNG, 16 bits', extension: 'png', type: 'image/png', alpha: true },
-  { id: 'exr', title: 'EXR, linear, with all layers and lights', extension: 'exr', type: 'image/x-exr', alpha: true },
+  {
+    id: 'exr',
+    title: 'EXR, linear, with all layers and light groups',
+    extension: 'exr',
+    type: 'image/x-exr',
+    alpha: true,
+  },
 ];
 
 /** The size of the stage in the screen's own pixels. */

@@ -29,7 +29,7 @@ function animationsOf({ opened, store }: Context, poser: () => Poser | undefined
       if (!posed)
         throw new PlaygroundError(
           'playground/animation',
-          'Parts of the model appear or vanish in this animation: a video of it cannot be recorded here. The command "glanz video" records it.',
+          'Parts of the model appear or disappear in this animation, which the playground cannot record. Record it with the command "glanz video".',
         );
       await applyPose(tracer, posed, store.state);
     },

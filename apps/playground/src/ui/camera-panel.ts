@@ -67,7 +67,7 @@ export function cameraPanel(context: Context): HTMLElement[] {
     range: [12, 200],
     hardRange: [4, 2000],
     curve: 2,
-    hint: 'Of a full-frame camera',
+    hint: 'Full-frame equivalent',
     onInput: (value) => lensed({ fov: fieldOfView(value) }, 'Focal length'),
   });
   const fov = sliderField({
@@ -84,7 +84,7 @@ export function cameraPanel(context: Context): HTMLElement[] {
     id: 'stop',
     label: 'Aperture',
     value: String(initial.lens.stop),
-    choices: STOPS.map((n) => [n as string, n === '0' ? 'Pinhole, all in focus' : `f/${n}`] as const),
+    choices: STOPS.map((n) => [n as string, n === '0' ? 'Pinhole, everything in focus' : `f/${n}`] as const),
     onInput: (value) => lensed({ stop: Number(value) }, 'Aperture'),
   });
   const blades = selectField({
@@ -102,10 +102,10 @@ export function cameraPanel(context: Context): HTMLElement[] {
     range: [0.01, 10],
     hardRange: [0.001, 100000],
     curve: 3,
-    hint: 'Distance in focus; D and a click on the image measure it',
+    hint: 'Focus distance. Press D, then click the image to set it.',
     onInput: (value) => lensed({ focus: value }, 'Focus'),
   });
-  const auto = element('button', { type: 'button', id: 'focus-auto' }, 'Focus on the target');
+  const auto = element('button', { type: 'button', id: 'focus-auto' }, 'Focus on the orbit target');
   auto.addEventListener('click', () => lensed({ focus: null }, 'Focus'));
   const refresh = () => {
     const { lens } = store.state;
@@ -162,9 +162,9 @@ export function cameraPanel(context: Context): HTMLElement[] {
     const views = `${walk.length} ${walk.length === 1 ? 'view' : 'views'}`;
     walkNote.textContent =
       walk.length === 0
-        ? 'Views that a video goes through, see Export.'
+        ? 'Views along which a video moves the camera, see Export.'
         : walk.length === 1
-          ? `${views}; a walk needs two.`
+          ? `${views}; a camera walk needs two.`
           : `${views}.`;
     clearViews.hidden = walk.length === 0;
     addView.disabled = walk.length >= MAX_VIEWS;
@@ -173,6 +173,6 @@ export function cameraPanel(context: Context): HTMLElement[] {
     section('View', camera.element, views),
     section('Camera walk', walkNote, element('div', { class: 'chips' }, addView, clearViews)),
     section('Lens', projection.element, focal.element, fov.element, stop.element, blades.element, focus.element, auto),
-    section('Development', exposure.element, toneMap.element),
+    section('Tone mapping', exposure.element, toneMap.element),
   ];
 }

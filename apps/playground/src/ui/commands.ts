@@ -26,7 +26,7 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
   const focus = () => {
     const on = canvas.classList.toggle('focusing');
     byId('focus').setAttribute('aria-pressed', String(on));
-    if (on) say('Click what should be sharp.');
+    if (on) say('Click the point to focus on.');
   };
   const turn = (degrees: number) => {
     const rotation = ((((store.state.rotation + degrees + 180) % 360) + 360) % 360) - 180;
@@ -44,13 +44,13 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
     { keys: ['mod+shift+z', 'mod+y'], title: 'Redo', run: redo },
     { keys: [' '], title: 'Pause', run: pause },
     { keys: ['0', 'home'], title: 'Reset view', run: () => rig.choose(store.state.camera) },
-    { keys: ['f'], title: 'Frame the chosen parts', run: () => rig.frame(chosenParts(selection.chosen)) },
+    { keys: ['f'], title: 'Frame the selected parts', run: () => rig.frame(chosenParts(selection.chosen)) },
     { keys: ['d'], title: 'Focus by click', run: focus },
-    { keys: ['h'], title: 'Hide the chosen parts', run: hide },
+    { keys: ['h'], title: 'Hide the selected parts', run: hide },
     { keys: ['shift+h'], title: 'Show all parts', run: () => store.set({ hidden: [] }, { label: 'Show all' }) },
     ...(['move', 'rotate', 'scale'] as const).map((tool, i) => ({
       keys: ['grs'.charAt(i)],
-      title: ['Move the chosen parts', 'Turn the chosen parts', 'Scale the chosen parts'][i] as string,
+      title: ['Move the selected parts', 'Rotate the selected parts', 'Scale the selected parts'][i] as string,
       run: () => document.getElementById(`tool-${tool}`)?.click(),
     })),
     { keys: ['1'], title: 'View from the front', run: () => rig.look('front') },
@@ -71,10 +71,10 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
           { label: 'Projection' },
         ),
     },
-    { keys: ['l'], title: 'Turn the environment to the left', run: () => turn(10) },
-    { keys: [';'], title: 'Turn the environment to the right', run: () => turn(-10) },
+    { keys: ['l'], title: 'Rotate the environment to the left', run: () => turn(10) },
+    { keys: [';'], title: 'Rotate the environment to the right', run: () => turn(-10) },
     { keys: ['e'], title: 'Export', run: () => byId('export-menu').showPopover() },
-    { keys: ['?'], title: 'These keys', run: () => dialog.showModal() },
+    { keys: ['?'], title: 'Show this list', run: () => dialog.showModal() },
   ];
   wireShortcuts(shortcuts);
   fillKeysDialog(dialog, shortcuts);

@@ -1,7 +1,7 @@
 import { describeError, PlaygroundError } from '../errors';
 import { byId, element } from './elements';
 
-/** Says why there is no image and what to do, where the image would be. @returns Takes that back. */
+/** Explains in place of the image why there is none, and what to do. @returns A function that removes the text. */
 export function explain(error: unknown): () => void {
   const { message, code } = describeError(error);
   const missing = code === 'renderer/no-webgpu';
@@ -23,9 +23,11 @@ export function explain(error: unknown): () => void {
     element(
       'p',
       { role: 'alert', 'data-code': code },
-      missing ? 'Images are computed on the GPU through WebGPU, which this browser does not offer here.' : message,
+      missing
+        ? 'Images are rendered on the GPU with WebGPU, which this browser does not provide for this page.'
+        : message,
     ),
-    element('p', {}, missing ? 'Browsers that have it:' : 'What may help:'),
+    element('p', {}, missing ? 'Supported browsers:' : 'Try the following:'),
     element('ul', {}, ...advice.map((line) => element('li', {}, line))),
   );
   notice.hidden = false;
@@ -42,7 +44,7 @@ export function explain(error: unknown): () => void {
 }
 
 /**
- * Says at once what is missing, before anything is fetched or made: WebGPU, or a GPU.
+ * Explains at once that WebGPU or a GPU is missing, before anything is fetched.
  *
  * @param start Starts the page. It asks for a GPU more than once; where one comes late, the page works.
  */
@@ -51,7 +53,7 @@ export async function explained(start: () => Promise<void>): Promise<void> {
   let settled = false;
   try {
     const { gpu } = navigator as { readonly gpu?: GPU };
-    if (!gpu) throw new PlaygroundError('renderer/no-webgpu', 'This browser does not offer WebGPU here.');
+    if (!gpu) throw new PlaygroundError('renderer/no-webgpu', 'This browser does not provide WebGPU for this page.');
     const missing = (adapter: GPUAdapter | null) => {
       if (!adapter && !settled)
         back = explain(new PlaygroundError('renderer/no-adapter', 'WebGPU finds no usable GPU.'));

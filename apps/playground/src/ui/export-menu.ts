@@ -4,7 +4,7 @@ import type { Context } from './context';
 import { byId, element } from './elements';
 import { item } from './menu-item';
 
-/** Images, models and materials to keep. */
+/** Saves images, videos, models and materials. */
 export function exportMenu(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): HTMLElement[] {
   const { session, store, opened, selection, fail } = context;
   const name = () => fileName(opened().title);
@@ -24,12 +24,12 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
   return [
     element('h2', {}, 'Image'),
     item('render-image', 'Render image …', 'At any size, to a file or the clipboard', () => render(), fail),
-    item('save-png', 'Save PNG', '8 bits, as on the screen', png(8), fail),
+    item('save-png', 'Save PNG', '8 bits per channel, as displayed', png(8), fail),
     item('save-png-16', 'Save 16-bit PNG', 'Tone-mapped, for retouching', png(16), fail),
     item(
       'save-exr',
       'Save EXR',
-      'Linear light, with all layers and lights',
+      'Linear, with all layers and light groups',
       async () => {
         if (!session.tracer || !session.current) return render('exr');
         download(await imageAsExr(session.tracer), `${name()}.exr`, 'image/x-exr');
@@ -52,7 +52,7 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
     item(
       'save-gltf',
       'Save glTF',
-      'The model with its materials as edited',
+      'The model with the edited materials',
       async () => {
         const { modelAsGltf } = await import('../output/gltf-materials');
         const { bytes, extension } = await modelAsGltf(opened(), store.state);
@@ -63,7 +63,7 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
     item(
       'save-mtlx',
       'Save MaterialX',
-      'The chosen material as .mtlx',
+      'The selected material as .mtlx',
       async () => {
         const { materialAsMaterialX } = await import('../output/materialx');
         const { scene } = opened();

@@ -5,7 +5,7 @@ import { checkField, colourField, section, sliderField } from './fields';
 
 const UNSET: GroupSettings = { intensity: 1, color: [1, 1, 1] };
 
-/** Every light with a dimmer and a filter that act on the finished image. */
+/** Intensity and colour of every light group, applied to the finished image. */
 export function lightGroups({ store, session, onStatus }: Context): HTMLElement {
   const list = element('div', { id: 'light-groups' });
   const note = element('p', { class: 'note' });
@@ -13,7 +13,7 @@ export function lightGroups({ store, session, onStatus }: Context): HTMLElement 
     id: 'relight',
     label: 'Relight',
     value: store.state.relight,
-    hint: 'Keeps the light of each source apart, to dim and colour it without a new sample. Costs 32 bytes a pixel and source.',
+    hint: 'Stores the light of each source separately, so that its intensity and colour can change without new samples. Needs 32 bytes per pixel and light source.',
     onInput: (relight) => store.set({ relight }, { label: 'Relight' }),
   });
   let shown = '';
@@ -26,9 +26,9 @@ export function lightGroups({ store, session, onStatus }: Context): HTMLElement 
     const names = store.state.relight ? (session.tracer?.lightGroups ?? []).map(({ name }) => name) : [];
     note.textContent = store.state.relight
       ? names.length > 0
-        ? 'No new samples: the image is weighed again.'
+        ? 'Changes apply at once, without new samples.'
         : ''
-      : 'Dim and colour each light after the image is done.';
+      : 'Change the intensity and colour of each light after rendering.';
     if (names.join('\n') === shown) return;
     shown = names.join('\n');
     list.replaceChildren(
@@ -65,5 +65,5 @@ export function lightGroups({ store, session, onStatus }: Context): HTMLElement 
   onStatus(({ state }) => {
     if (state === 'rendering' || state === 'done') fill();
   });
-  return section('Lights one by one', box.element, note, list);
+  return section('Light groups', box.element, note, list);
 }

@@ -10,7 +10,7 @@ import { latLongSteps, SkyEditor } from './sky-editor';
 const BACKGROUND_TITLES: Readonly<Record<Background, string>> = {
   environment: 'Environment',
   blurred: 'Environment, blurred',
-  color: 'One colour',
+  color: 'Solid colour',
   transparent: 'Transparent',
 };
 const STUDIO_TITLES: Readonly<Record<StudioName, string>> = {
@@ -47,7 +47,7 @@ function studioButtons({ store }: Context): HTMLElement {
   return element('div', { class: 'studios' }, ...buttons);
 }
 
-/** Where the light comes from, what is behind the model, and the lights one by one. */
+/** Environment, background and light groups. */
 export function lightPanel(context: Context): HTMLElement[] {
   const { store, environments, opened, onModel, onEnvironmentFile, pickFiles } = context;
   const change = changer(store);
@@ -68,7 +68,7 @@ export function lightPanel(context: Context): HTMLElement[] {
   const fill = ({ environment }: State) => {
     const choices: (readonly [EnvironmentChoice, string])[] = [
       ['studio', 'Studio or sky'],
-      ['constant', 'One colour'],
+      ['constant', 'Uniform colour'],
       [
         'file',
         environments.hasFile
@@ -79,7 +79,7 @@ export function lightPanel(context: Context): HTMLElement[] {
       ],
       ['none', 'Model’s lights only'],
     ];
-    if (opened().scene.environment || environment === 'model') choices.unshift(['model', 'The model’s own']);
+    if (opened().scene.environment || environment === 'model') choices.unshift(['model', 'From the model']);
     choice.setChoices(choices, environment);
     constant.element.hidden = environment !== 'constant';
     studios.hidden = sky.element.hidden = environment !== 'studio';
@@ -110,7 +110,7 @@ export function lightPanel(context: Context): HTMLElement[] {
     range: [-180, 180],
     step: 1,
     unit: '°',
-    hint: 'Also: L and ; turn it',
+    hint: 'Keys: L and ;',
     onInput: change('rotation', 'Environment rotation'),
   });
   watch(store, ['intensity'], (state) => intensity.set(state.intensity));
@@ -143,7 +143,7 @@ export function lightPanel(context: Context): HTMLElement[] {
     id: 'floor',
     label: 'Floor shadow',
     value: initial.floor,
-    hint: 'An invisible floor that shows shadows and reflected light only',
+    hint: 'An invisible floor that receives shadows and reflected light',
     onInput: change('floor', 'Floor shadow'),
   });
   watch(store, ['background', 'backgroundColor', 'backgroundBlur', 'floor'], (state) => {

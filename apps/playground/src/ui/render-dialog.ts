@@ -122,7 +122,7 @@ export function showRenderDialog(host: RenderHost): void {
     [samples.hidden, noise.hidden] = [goal.value === 'noise', goal.value !== 'noise'];
     transparent.disabled = !chosen().alpha;
     copy.disabled = working || chosen().type !== 'image/png' || typeof ClipboardItem === 'undefined';
-    copy.title = chosen().type === 'image/png' ? '' : 'The clipboard takes PNG only';
+    copy.title = chosen().type === 'image/png' ? '' : 'Only PNG can be copied to the clipboard';
   };
   const { open, progress, run } = workDialog({
     name: 'render',

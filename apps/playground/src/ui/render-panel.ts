@@ -17,14 +17,14 @@ const SCALE_TITLES: Readonly<Record<Scale, string>> = {
 const SCALE_ORDER: readonly Scale[] = ['0.125', '0.25', '0.5', '1', 'device'];
 const NOISES = ['0', '0.1', '0.05', '0.02', '0.01', '0.005'] as const;
 
-/** Samples, depth, layers, the model's looks and poses, and figures. */
+/** Sampling options, variants and animations of the model, and statistics. */
 export function renderPanel(context: Context): HTMLElement[] {
   const { store, opened, onModel, onStatus, session, pose, fail } = context;
   const change = changer(store);
   const initial = store.state;
   const layer = selectField({
     id: 'layer',
-    label: 'Show',
+    label: 'Layer',
     value: initial.layer,
     choices: LAYERS.map((name) => [name, LAYER_TITLES[name]] as const),
     onInput: (value) => store.set({ layer: value }),
@@ -34,7 +34,7 @@ export function renderPanel(context: Context): HTMLElement[] {
     id: 'noise',
     label: 'Noise target',
     value: String(initial.noise),
-    choices: NOISES.map((n) => [n as string, n === '0' ? 'None: all samples' : `${Number(n) * 100} %`] as const),
+    choices: NOISES.map((n) => [n as string, n === '0' ? 'None' : `${Number(n) * 100} %`] as const),
     hint: RENDER_OPTION_TEXTS.noise.doc,
     onInput: (value) => change('noise', 'Noise target')(Number(value)),
   });
@@ -85,9 +85,9 @@ export function renderPanel(context: Context): HTMLElement[] {
   const looks = section('Model', variant.element, clip.element, playback.element);
   const fill = () => {
     const { variants = [], animations = [] } = opened().scene;
-    variant.setChoices([['', 'As made'], ...variants.map((name) => [name, name] as const)], store.state.variant ?? '');
+    variant.setChoices([['', 'Default'], ...variants.map((name) => [name, name] as const)], store.state.variant ?? '');
     clip.setChoices(
-      [['', 'At rest'], ...animations.map(({ name }, i) => [String(i), name || `Animation ${i + 1}`] as const)],
+      [['', 'Rest pose'], ...animations.map(({ name }, i) => [String(i), name || `Animation ${i + 1}`] as const)],
       store.state.clip === null ? '' : String(store.state.clip),
     );
     variant.element.hidden = variants.length === 0;

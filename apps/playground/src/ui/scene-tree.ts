@@ -27,7 +27,7 @@ export class SceneTree {
   readonly #order = element(
     'select',
     { id: 'part-order', 'aria-label': 'Order of parts' },
-    element('option', { value: 'file' }, 'As in file'),
+    element('option', { value: 'file' }, 'File order'),
     element('option', { value: 'material' }, 'By material'),
   );
   readonly #list = element('ul', { class: 'tree', id: 'parts', 'aria-label': 'Parts' });
@@ -85,7 +85,7 @@ export class SceneTree {
       rows.push(row);
     }
     if (indices.length > MAX_ROWS)
-      rows.push(element('li', { class: 'heading' }, `${indices.length - MAX_ROWS} more: search for them`));
+      rows.push(element('li', { class: 'heading' }, `${indices.length - MAX_ROWS} more parts: use the search`));
     if (indices.length === 0) rows.push(element('li', { class: 'heading' }, 'No part has this name.'));
     this.#list.replaceChildren(...rows);
     this.#mark();
@@ -118,7 +118,7 @@ export class SceneTree {
       type: 'button',
       class: 'eye',
       'aria-label': `Show ${name}`,
-      title: 'Hide or show; Alt: show only this one',
+      title: 'Show or hide; with Alt, show only this part',
     });
     eye.addEventListener('click', (event) => this.#toggle(index, event.altKey));
     return element('li', { 'data-part': index }, part, eye);
@@ -156,7 +156,7 @@ export class SceneTree {
       : off
         ? hidden.filter((i) => !parts.has(i))
         : [...new Set([...hidden, ...parts])];
-    if (next.length >= all.length) return say('The last visible part stays: there would be nothing to see.');
+    if (next.length >= all.length) return say('The last visible part cannot be hidden.');
     store.set(
       { hidden: next },
       {

@@ -5,15 +5,15 @@ import type { Context } from './context';
 import { byId, element } from './elements';
 import { item } from './menu-item';
 
-/** What a link to the view as it is holds. */
+/** The content of a link to the current view. */
 const contentOf = ({ opened, store, environments }: Context): LinkContent =>
   linkContent(opened().name, store.state, environments.fileName);
 
-/** What a link to the view as it is leaves out, in words; empty where it holds everything. */
+/** What a link to the current view does not contain, in words; empty where it contains everything. */
 const leftOutOf = (context: Context): string =>
   textForSender(contentOf(context), context.opened().request.kind === 'files');
 
-/** The address of the view as it is. */
+/** The URL of the current view. */
 async function linkTo(context: Context): Promise<string> {
   const link = await encodeLink(contentOf(context));
   return `${location.origin}${location.pathname}#${link}`;
@@ -31,7 +31,7 @@ const CODE_KINDS: readonly (readonly [CodeKind, string])[] = [
   ['react', 'React component'],
 ];
 
-/** A link to the view, and programs that show the same. */
+/** A link to the view, and code that shows the same scene. */
 export function shareMenu(context: Context): HTMLElement[] {
   const { say, fail } = context;
   const kind = element(
@@ -44,7 +44,7 @@ export function shareMenu(context: Context): HTMLElement[] {
     id: 'snippet',
     role: 'group',
     tabindex: 0,
-    'aria-label': 'Code that makes this image',
+    'aria-label': 'Code that renders this image',
   });
   const note = element('p', { class: 'note', id: 'share-note' });
   const write = () =>
@@ -83,7 +83,7 @@ export function shareMenu(context: Context): HTMLElement[] {
     item(
       'copy-code',
       'Copy code',
-      'A program that shows the same',
+      'Code that shows this scene',
       () => copy(code.textContent ?? '', say, 'The code'),
       fail,
     ),

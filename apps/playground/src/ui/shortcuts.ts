@@ -39,11 +39,11 @@ const MOUSE: readonly (readonly [string, string])[] = [
   ['Drag, one finger, arrow keys', 'Orbit'],
   ['Shift or right button and drag, two fingers', 'Pan'],
   ['Wheel, pinch, + and −', 'Zoom'],
-  ['Click, tap, Enter', 'Choose the part and its material'],
-  ['Ctrl or Shift and click', 'Choose one more part, or one less'],
-  ['Ctrl or Shift while dragging a handle', 'Move, turn or scale in steps'],
-  ['Drag a preset to the image', 'Put it on the part under it'],
-  ['Drop files', 'Model, environment, .mtlx; an image on a parameter'],
+  ['Click, tap, Enter', 'Select the part and its material'],
+  ['Ctrl or Shift and click', 'Add a part to the selection, or remove it'],
+  ['Ctrl or Shift while dragging a handle', 'Move, rotate or scale in steps'],
+  ['Drag a preset to the image', 'Apply it to the part under the pointer'],
+  ['Drop files', 'Open a model, an environment or a .mtlx material; set an image as the texture of a parameter'],
 ];
 
 const shown = (key: string) =>

@@ -131,7 +131,7 @@ export class SkyEditor {
   #handle(index: number): HTMLButtonElement {
     const handle = element(
       'button',
-      { type: 'button', 'aria-label': `Soft box ${index + 1}; arrows move it` },
+      { type: 'button', 'aria-label': `Soft box ${index + 1}; arrow keys move it` },
       String(index + 1),
     );
     this.#map.append(handle);

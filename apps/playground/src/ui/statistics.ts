@@ -16,7 +16,7 @@ const spokenMany = (rate: number) =>
       : `${(rate / 1e3).toPrecision(3)} k/s`;
 
 const PURPOSES = [
-  ['shapes', 'Shapes', '#7c9cc0'],
+  ['shapes', 'Geometry', '#7c9cc0'],
   ['textures', 'Textures', '#7fb08a'],
   ['environment', 'Environment', '#d9a441'],
   ['paths', 'Paths', '#b884b0'],
@@ -53,9 +53,9 @@ export class StatisticsPanel {
       ['materials', 'Materials', whole.format(scene.materials.length)],
       ['textures', 'Textures', whole.format(scene.textures.length)],
       ['lights', 'Light sources', whole.format(statistics.lights)],
-      ['bvh', 'Hierarchy built in', ms(statistics.bvhMs)],
-      ['upload', 'Uploaded in', ms(statistics.uploadMs)],
-      ['compile', 'Shaders compiled in', ms(statistics.compileMs)],
+      ['bvh', 'BVH build time', ms(statistics.bvhMs)],
+      ['upload', 'Upload time', ms(statistics.uploadMs)],
+      ['compile', 'Shader compile time', ms(statistics.compileMs)],
       ['adapter', 'GPU', adapter],
       ['memory', 'GPU memory', mebibytes(statistics.gpuBytes)],
     ];

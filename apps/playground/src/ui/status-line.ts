@@ -3,7 +3,7 @@ import { byId } from './elements';
 import { spokenRate, spokenTime } from './figures';
 
 const STAGES: Readonly<Record<string, string>> = {
-  make: 'Making the model',
+  make: 'Generating the model',
   read: 'Reading the model',
   decode: 'Decoding the model',
   images: 'Decoding textures',
@@ -12,7 +12,7 @@ const STAGES: Readonly<Record<string, string>> = {
   compile: 'Compiling shaders',
 };
 
-/** What is going on, in a line under the image and in attributes of its canvas. */
+/** The state of the render, in a line under the image and in attributes of its canvas. */
 export class StatusLine {
   readonly #canvas: HTMLCanvasElement;
   readonly #done = byId<HTMLProgressElement>('done');
@@ -22,7 +22,7 @@ export class StatusLine {
     this.#canvas = canvas;
   }
 
-  /** A model is on its way; `done` is the share of the stage, 0..1. */
+  /** A model is being prepared; `done` is the progress of the stage, 0..1. */
   prepare(stage: string, done?: number): void {
     byId('preparing').hidden = false;
     byId('preparing-text').textContent = STAGES[stage] ?? stage;
@@ -48,7 +48,7 @@ export class StatusLine {
     const calm =
       noise === undefined
         ? ''
-        : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the image left` : ''}`;
+        : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the image not converged` : ''}`;
     const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(remainingMs)} left` : '';
     const texts = {
       empty: '',

@@ -1,7 +1,7 @@
 import { byId } from './elements';
 
 const THEMES = ['', 'light', 'dark'] as const;
-const TITLES = { '': 'as the system', light: 'light', dark: 'dark' } as const;
+const TITLES = { '': 'system', light: 'light', dark: 'dark' } as const;
 
 /** The button that cycles through the themes; the choice stays in this browser. */
 export function wireTheme(): void {

@@ -83,7 +83,7 @@ export function showVideoDialog(host: VideoHost): void {
   const width = numberBox('video-width', 'Width, pixels', SIZES[0][1], [2, MAX_SIDE], 1);
   const height = numberBox('video-height', 'Height, pixels', SIZES[0][2], [2, MAX_SIDE], 1);
   const samples = numberBox('video-samples', 'Samples per pixel', host.samples, LIMITS.samples, 1);
-  const shutter = numberBox('video-shutter', 'Motion blur, share of a frame', 0, [0, 1], 'any');
+  const shutter = numberBox('video-shutter', 'Motion blur, fraction of a frame', 0, [0, 1], 'any');
   const format = select(
     'video-format',
     [

@@ -8,7 +8,7 @@ let weights: Promise<ArrayBuffer> | undefined;
 async function fetchWeights(): Promise<ArrayBuffer> {
   try {
     const response = await fetch(smallUrl());
-    if (!response.ok) throw new Error(`The weights of the denoiser cannot be fetched: ${response.status}.`);
+    if (!response.ok) throw new Error(`The denoiser’s weights cannot be fetched: status ${response.status}.`);
     return await response.arrayBuffer();
   } catch (error) {
     // Switched on again, it tries again.

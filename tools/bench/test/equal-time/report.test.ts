@@ -24,7 +24,7 @@ describe('the report', () => {
   it('says in its first paragraph that a software GPU measured, and does not say so of a real one', () => {
     expect(equalTimeMarkdown(REPORT).split('\n')[0]).toMatch(/software GPU: these figures do not predict/);
     expect(equalTimeMarkdown({ ...REPORT, gpu: { name: 'nvidia', software: false } })).not.toMatch(/software/);
-    expect(equalTimeMarkdown({ ...REPORT, quick: true })).toMatch(/quick run, no measurement/);
+    expect(equalTimeMarkdown({ ...REPORT, quick: true })).toMatch(/quick run, not a measurement/);
   });
 
   it('holds the measured values, side by side, with their ratio', () => {

@@ -64,10 +64,10 @@ export const LOOKS = {
   studio: look('Grey studio', { studio: 'neutral', focal: 50, color: [0.3, 0.3, 0.31] }),
   dark: look('Dark', { studio: 'low-key', focal: 85, color: [0.012, 0.012, 0.014], change: { exposure: 0.5 } }),
   window: look('By the window', { studio: 'window', focal: 50, change: { backgroundBlur: 20 } }),
-  duotone: look('Two colours', { studio: 'duotone', focal: 35, color: [0.02, 0.015, 0.03] }),
+  duotone: look('Duotone', { studio: 'duotone', focal: 35, color: [0.02, 0.015, 0.03] }),
   overcast: look('Overcast', { studio: 'overcast', focal: 35, change: { backgroundBlur: 8 } }),
   sunset: look('Sunset', { studio: 'sunset', focal: 50, change: { toneMap: 'agx', exposure: 0.5, backgroundBlur: 8 } }),
-  drawing: look('Parallel', {
+  drawing: look('Orthographic', {
     studio: 'high-key',
     color: [1, 1, 1],
     change: { lens: { projection: 'orthographic', fov: fieldOfView(50), stop: 0, blades: 0, focus: null } },

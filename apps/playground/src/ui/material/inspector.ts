@@ -78,7 +78,7 @@ export class MaterialInspector {
       ...scene.materials.map(({ name }, index) => element('option', { value: index }, name || `Material ${index + 1}`)),
     );
     this.#show({ material: 0 });
-    this.#part.textContent = 'Click a part of the image to choose its material.';
+    this.#part.textContent = 'Click a part in the image to select its material.';
   }
 
   /** Materials that edits apply to. */
@@ -94,9 +94,9 @@ export class MaterialInspector {
     const [part, ...others] = chosenParts(chosen);
     if (part === undefined) return '';
     const name = scene.instances[part]?.name || `part ${part + 1}`;
-    if (others.length === 0) return `Picked: ${name}`;
+    if (others.length === 0) return `Selected: ${name}`;
     const materials = this.#targets().length;
-    return `Picked: ${name} and ${others.length} more, ${materials === 1 ? 'one material' : `${materials} materials`}; edits apply to all.`;
+    return `Selected: ${name} and ${others.length} more, ${materials === 1 ? 'one material' : `${materials} materials`}; edits apply to all.`;
   }
 
   #show(chosen: Chosen): void {
@@ -119,7 +119,7 @@ export class MaterialInspector {
   }
 
   #group(group: string, rows: HTMLElement[]): HTMLElement {
-    const dot = element('span', { class: 'dot', title: 'Differs from the model', hidden: true });
+    const dot = element('span', { class: 'dot', title: 'Changed from the model', hidden: true });
     this.#dots.set(group, dot);
     const details = element(
       'details',
@@ -141,14 +141,14 @@ export class MaterialInspector {
         'div',
         { class: 'field', title: `${name}: ${doc}` },
         element('span', { class: 'label' }, title),
-        element('span', { class: 'note wide' }, type === 'vector3' ? 'by texture' : ''),
+        element('span', { class: 'note wide' }, type === 'vector3' ? 'set by a texture' : ''),
       );
     const refreshSlot = info.texturable
       ? textureSlot(this.#context, this.#index, name, `${capital(group)} ${title}`, row)
       : () => undefined;
     if (!this.#acting.has(name)) {
       row.classList.add('idle');
-      row.title = `${name}: ${doc} Kept in files; this renderer does not show it yet.`;
+      row.title = `${name}: ${doc} Saved in files, but not used by the renderer yet.`;
     }
     this.#rows.push({ name, group, field: field as Field<never> | undefined, refreshSlot });
     return row;

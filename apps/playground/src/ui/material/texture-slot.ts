@@ -26,7 +26,7 @@ export function textureSlot(
   });
   const button = element(
     'button',
-    { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Put an image on this parameter' },
+    { type: 'button', class: 'slot', 'aria-label': `Texture for ${title}`, title: 'Set a texture' },
     icon('image'),
   );
   const imageLabel = element('span', { class: 'slot-name' });
@@ -40,7 +40,9 @@ export function textureSlot(
           (instance) => instance.material === index && (scene.meshes[instance.mesh]?.uvs?.length ?? 0) > 0,
         )
       )
-        say(`No part of "${material.name}" has UV coordinates: the image shows only its corner’s colour.`);
+        say(
+          `No part with the material "${material.name}" has UV coordinates: all of it has the colour of the texture’s corner.`,
+        );
     } catch (error) {
       fail(error);
     }
@@ -77,7 +79,7 @@ export function textureSlot(
     const slot = slotState(store.state, material, index, name);
     button.setAttribute('aria-pressed', String(slot !== undefined));
     button.setAttribute('aria-label', slot ? `Remove the texture of ${title}` : `Texture for ${title}`);
-    button.title = slot ? 'Remove the image' : 'Put an image on this parameter';
+    button.title = slot ? 'Remove the texture' : 'Set a texture';
     imageLabel.hidden = slot === undefined;
     imageLabel.textContent = slot ? `× ${slot.name}` : '';
   };
