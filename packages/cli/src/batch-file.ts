@@ -69,7 +69,7 @@ function valuesOf(
         return JSON.stringify(one);
       throw wrong(
         file,
-        `${where}: "${key}" must be a text or a number${kind === 'list' ? ', or a list of such' : ''}.`,
+        `${where}: "${key}" must be a string or a number${kind === 'list' ? ', or a list of them' : ''}.`,
       );
     };
     if (kind === 'boolean') {
@@ -117,7 +117,7 @@ export async function checkBatchOutputs(
     if (await liesBelow(path, root, cwd)) continue;
     throw wrong(
       file,
-      `${where}: "${path}" lies outside the folder "${root}", and a batch writes below it only. Change the path, or name another folder by --output-root.`,
+      `${where}: "${path}" lies outside the folder "${root}", and a batch writes only in that folder. Change the path, or set another folder with --output-root.`,
     );
   }
 }
@@ -179,7 +179,7 @@ export async function openBatch(
       throw wrong(file, 'it must be a list of objects, or { "defaults": {…}, "images": […] }.');
     rows = (list as Record<string, unknown>[]).map((row, i) => [`image ${i + 1}`, { ...defaults, ...row }]);
   }
-  if (rows.length === 0) throw wrong(file, 'there is no image in it.');
+  if (rows.length === 0) throw wrong(file, 'it contains no images.');
   const folder = dirname(file);
   const near = (path: string) => (isAbsolute(path) || folder === '.' ? path : join(folder, path));
   const request = ([where, row]: (typeof rows)[number]): BatchRequest => {

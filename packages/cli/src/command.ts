@@ -69,7 +69,8 @@ export function parseCommand(argv: readonly string[]): Command {
       ),
     );
   }
-  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"? Several go into a batch file: --batch.`);
+  if (rest.length > 0)
+    throw usage(`One model at a time: unexpected argument "${rest[0]}". For several models, use --batch FILE.`);
   if (model === undefined && values.batch === undefined)
     throw usage('No model given. Use glanz render MODEL, a .glb or .gltf file.');
   if (values['output-root'] !== undefined && values.batch === undefined)

@@ -2,15 +2,15 @@ import { GlanzError } from '@glanz/scene';
 import { visible } from './visible';
 
 /**
- * Something the user can put right. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
- * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (a batch
- * file that makes no sense), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be merged), `cli/gpu-isolation` (GPUs of one name that cannot be distinguished), `cli/gpu-lost` (a GPU that is gone for
- * good), `cli/farm` (a job that this version cannot do), `cli/missing-package` (an optional package is needed), `cli/ffmpeg` (a
- * film that ffmpeg cannot encode, or ffmpeg is missing), `cli/port` (a port that cannot be used).
+ * Thrown for errors that the user can correct. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
+ * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (an invalid batch
+ * file), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be merged), `cli/gpu-isolation` (GPUs of one name that cannot be distinguished), `cli/gpu-lost` (a GPU that cannot be
+ * recovered), `cli/farm` (a job of another version), `cli/missing-package` (an optional package is needed), `cli/ffmpeg` (a
+ * video that ffmpeg cannot encode, or ffmpeg is missing), `cli/port` (a port that cannot be used).
  */
 export class CliError extends GlanzError {}
 
-/** What the process ends with. Listed in the manual page. */
+/** Exit statuses of the process, as in the manual page. */
 export const EXIT = {
   ok: 0,
   failure: 1,
@@ -24,7 +24,7 @@ export const EXIT = {
   terminated: 143,
 } as const;
 
-/** What the process ends with after a signal. */
+/** Exit statuses after a signal. */
 export const EXIT_OF_INTERRUPT = { SIGINT: EXIT.interrupted, SIGTERM: EXIT.terminated, SIGHUP: EXIT.hangup } as const;
 
 const GPU_CODES = new Set([
@@ -63,7 +63,7 @@ export function exitCodeOf(error: unknown): number {
 
 const oneLine = (text: string) => visible(text.replace(/\s*\n\s*/g, ' '));
 
-/** The error as one line for people. Control characters, which names in files bring along, are made visible. */
+/** The error as one line of text. Control characters, such as in names of files, are made visible. */
 export function errorLine(error: unknown): string {
   if (error instanceof GlanzError) return `${oneLine(error.message)} [${error.code}]`;
   const message = error instanceof Error ? error.message : String(error);

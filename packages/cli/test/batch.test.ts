@@ -182,11 +182,11 @@ describe('batch files', () => {
 
   it.each([
     ['b.json', '{', 'it is not valid JSON'],
-    ['b.json', '[]', 'there is no image in it'],
+    ['b.json', '[]', 'it contains no images'],
     ['b.json', '{"images": [3]}', 'it must be a list of objects'],
     ['b.json', '[{"model":"m.glb","colour":"red"}]', 'image 1: "colour" is unknown'],
     ['b.json', '[{"model":"m.glb","size":"big"}]', 'image 1: --size must be like 1024x768'],
-    ['b.json', '[{"model":"m.glb","samples":[1]}]', 'image 1: "samples" must be a text or a number'],
+    ['b.json', '[{"model":"m.glb","samples":[1]}]', 'image 1: "samples" must be a string or a number'],
     ['b.json', '[{"output":"a.png"}]', 'image 1: "model" is missing'],
     ['b.json', '[{"model":"m.glb","__proto__":{"x":1},"constructor":"y"}]', '"__proto__" is unknown'],
     ['b.csv', 'model\nm.glb,extra\n', 'image 1 has 2 fields'],

@@ -173,7 +173,7 @@ describe('serve', () => {
     );
     await expect(taken).rejects.toMatchObject({
       code: 'cli/port',
-      message: expect.stringContaining('something else listens there'),
+      message: expect.stringContaining('another program uses it'),
     });
     io.interrupt();
     expect(await served).toBe(0);
@@ -189,7 +189,7 @@ describe('help', () => {
       ['convert', '--help'],
     ]) {
       const { code, out } = await run(argv, '.');
-      expect([code, out.includes('EXIT STATUS\n  0 done')]).toEqual([0, true]);
+      expect([code, out.includes('EXIT STATUS\n  0 success')]).toEqual([0, true]);
       expect(out).toContain(`glanz ${argv[0] === 'help' ? argv[1] : argv[0]}`);
     }
     expect(helpOf('render')).toBe(HELP);

@@ -160,7 +160,7 @@ describe('where the store is', () => {
 
 describe('the command line', () => {
   it.each([
-    [['farm'], /is not an action of glanz farm/],
+    [['farm'], /glanz farm needs an action/],
     [['farm', 'submit'], /takes one batch file/],
     [['farm', 'work'], /needs --redis/],
     [['farm', 'status', 'x', '--redis', 'redis://a'], /takes no files/],

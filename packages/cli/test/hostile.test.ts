@@ -167,7 +167,7 @@ describe('a batch file writes below its folder only', () => {
     const { code, err, created } = await run(argv, cwd);
     expect([code, created.length, images(cwd), readdirSync(join(cwd, 'elsewhere'))], err).toEqual([2, 0, [], []]);
     expect(err).toContain('jobs/b.json: image 2: "');
-    expect(err).toContain('lies outside the folder "jobs", and a batch writes below it only.');
+    expect(err).toContain('lies outside the folder "jobs", and a batch writes only in that folder.');
     expect(err).toContain('[cli/batch]');
   });
 

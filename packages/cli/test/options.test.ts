@@ -180,7 +180,7 @@ describe('reports errors in one line that says what to do', () => {
     [['render'], 'No model given'],
     [['--json'], 'No command given'],
     [['paint', 'm.glb'], 'Unknown command "paint"'],
-    [['render', 'a.glb', 'b.glb'], 'what is "b.glb"?'],
+    [['render', 'a.glb', 'b.glb'], 'unexpected argument "b.glb"'],
     [['render', 'm.glb', '--size', '0x0'], '--size 0x0: both sides must be from 1'],
     [['render', 'm.glb', '--size', '10x0'], 'both sides'],
     [['render', 'm.glb', '--size', '99999x1'], 'both sides'],

@@ -508,7 +508,7 @@ describe('--checkpoint FILE', () => {
   });
 
   it.each([
-    ['is something else', 'my diary', 'is not a checkpoint of glanz; it stays as it is'],
+    ['is something else', 'my diary', 'is not a checkpoint of glanz and is not changed'],
     ['has a damaged header', 'GLANZ CHECKPOINT 1\n{"settings"\n[]', 'its header is damaged'],
     ['is cut off', undefined, 'bytes instead of'],
     ['has a wrong bit', undefined, 'its content is damaged'],

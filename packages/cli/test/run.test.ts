@@ -79,7 +79,7 @@ describe('help and version', () => {
   });
   it('--list-gpus, plain and as JSON', async () => {
     expect((await run(['--list-gpus'], '.')).out).toBe(
-      'Fake 3000 · vulkan · fakedrv 1.2\nSwiftShader Device · vulkan · on the processor\n',
+      'Fake 3000 · vulkan · fakedrv 1.2\nSwiftShader Device · vulkan · on the CPU\n',
     );
     expect(JSON.parse((await run(['--list-gpus', '--json'], '.')).out)).toEqual({ ok: true, gpus: FAKE_GPUS });
     const none = await run(['--list-gpus'], '.', { listGpus: async () => [] });

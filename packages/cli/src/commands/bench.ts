@@ -53,7 +53,7 @@ export function parseBench(argv: readonly string[]): BenchCommand {
     values,
     positionals: [model, ...rest],
   } = parsed;
-  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"?`);
+  if (rest.length > 0) throw usage(`One model at a time: unexpected argument "${rest[0]}".`);
   const [, width, height] = /^(\d{1,5})[xX×](\d{1,5})$/.exec(values.size ?? '512x512') ?? [];
   if (!(Number(width) >= 1 && Number(height) >= 1)) throw usage(`--size must be like 512x512, not "${values.size}".`);
   const whole = (name: string, text: string | undefined, fallback: number, max: number) => {
@@ -186,7 +186,7 @@ export async function benchCommand(
     const scene: Scene = { ...loaded, environment: loaded.environment ?? studioEnvironment() };
     const loadMs = io.now() - begun;
     const { device, adapterName, software } = await backend.openGpu(name, (error) => failures.push(error));
-    progress.line(`${software ? 'no GPU: rendering on the processor, ' : ''}${adapterName}`);
+    progress.line(`${software ? 'no GPU: rendering on the CPU, ' : ''}${adapterName}`);
     try {
       const preparing = io.now();
       const tracer = await backend.createTracer(device, scene, {

@@ -51,7 +51,7 @@ export function parseConvert(
   const { values, positionals } = parsed;
   const [input, ...rest] = positionals;
   if (input === undefined) throw usage('No model given. Use glanz convert PART.step -o PART.glb.');
-  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"?`);
+  if (rest.length > 0) throw usage(`One model at a time: unexpected argument "${rest[0]}".`);
   const levels = Number(values.lod ?? 1);
   if (!(Number.isInteger(levels) && levels >= 1 && levels <= 8))
     throw usage(`--lod must be a whole number from 1 to 8, not "${values.lod}".`);

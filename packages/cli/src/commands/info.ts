@@ -38,7 +38,7 @@ export function parseInfo(argv: readonly string[]): InfoCommand {
     positionals: [model, ...rest],
   } = parsed;
   if (model === undefined) throw usage('No model given. Use glanz info MODEL.');
-  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"?`);
+  if (rest.length > 0) throw usage(`One model at a time: unexpected argument "${rest[0]}".`);
   const scene =
     values.scene === undefined ? undefined : /^\d+$/.test(values.scene) ? Number(values.scene) : values.scene;
   return {
@@ -149,10 +149,7 @@ function lines(info: ModelInfo): string[] {
       `${info.triangles.toLocaleString('en')}${info.triangles === info.meshTriangles ? '' : ` (${info.meshTriangles.toLocaleString('en')} in ${info.meshes} meshes)`}`,
     ],
     ['parts', some(info.parts)],
-    [
-      'size',
-      bounds ? `${bounds.size.map(length).join(' × ')} m, from ${bounds.min.map(length).join(', ')}` : 'nothing to see',
-    ],
+    ['size', bounds ? `${bounds.size.map(length).join(' × ')} m, from ${bounds.min.map(length).join(', ')}` : 'empty'],
     ['materials', some(info.materials)],
     ['images', some(info.images.map(({ name, width, height }) => `${name || '–'} ${width}×${height}`))],
     ['cameras', some(info.cameras.map(({ name, type }, i) => `${i} "${name}" ${type}`))],

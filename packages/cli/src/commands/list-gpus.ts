@@ -17,7 +17,7 @@ export async function listGpusCommand(report: ReportOptions, io: CliIo, backend:
     const labels = numbered(gpus.map(({ name }) => name));
     for (const [i, { backend: api, driver, software }] of gpus.entries())
       io.stdout(
-        `${visible(`${labels[i]} · ${api}${driver ? ` · ${driver}` : ''}${software ? ' · on the processor' : ''}`)}\n`,
+        `${visible(`${labels[i]} · ${api}${driver ? ` · ${driver}` : ''}${software ? ' · on the CPU' : ''}`)}\n`,
       );
   }
   return gpus.length > 0 ? EXIT.ok : EXIT.gpu;

@@ -96,8 +96,8 @@ export async function interruptible<Result>(
     run.interrupted = signal;
     progress.line(
       signal === 'SIGINT'
-        ? `stopping${run.many ? '' : ': writing what there is'} (Ctrl-C again to end at once)`
-        : `stopping${run.many ? '' : ': writing what there is'}`,
+        ? `stopping${run.many ? '' : ': writing the samples so far'} (Ctrl-C again to exit at once)`
+        : `stopping${run.many ? '' : ': writing the samples so far'}`,
     );
     abort.abort();
   });
@@ -171,7 +171,7 @@ export async function renderMany(
   const waiting: Shot[] = [];
   for (const shot of shots) if (!resume || !(await journal.isDone(shot))) waiting.push(shot);
   const skipped = shots.length - waiting.length;
-  if (skipped > 0) progress.line(`${skipped} of ${shots.length} images are there already.`);
+  if (skipped > 0) progress.line(`${skipped} of ${shots.length} images exist already.`);
   const batch = new Batch(waiting, skipped, journal, run);
   const names: readonly (string | undefined)[] = gpus.length === 0 ? [undefined] : gpus;
   progress.shared = names.length > 1;

@@ -43,7 +43,9 @@ export function parseServe(argv: readonly string[]): ServeCommand {
   }
   const { values, positionals } = parsed;
   if (positionals.length > 0)
-    throw usage(`glanz serve takes no files: what is "${positionals[0]}"? Models are dropped onto the page.`);
+    throw usage(
+      `glanz serve takes no files: unexpected argument "${positionals[0]}". Models are dropped onto the page.`,
+    );
   const port = values.port === undefined ? 4173 : Number(values.port);
   if (!(Number.isInteger(port) && port >= 0 && port <= 65535))
     throw usage(`--port must be a whole number from 0 (any that is free) to 65535, not "${values.port}".`);
@@ -117,7 +119,7 @@ async function listen(server: StatusServer, port: number, host: string): Promise
       fail(
         new CliError(
           'cli/port',
-          `Port ${port} of ${host} cannot be used: ${cause.code === 'EADDRINUSE' ? 'something else listens there' : cause.message}; try --port 0.`,
+          `Port ${port} of ${host} cannot be used: ${cause.code === 'EADDRINUSE' ? 'another program uses it' : cause.message}; try --port 0.`,
           { cause },
         ),
       ),
@@ -139,7 +141,7 @@ export async function serveUntilInterrupt(
   const { port: actual } = server.address() as AddressInfo;
   const url = `http://${host.includes(':') ? `[${host}]` : host}:${actual}/`;
   if (json) io.stdout(jsonLine({ ok: true, url }));
-  else if (!quiet) io.stderr(`${visible(url)} — Ctrl-C ends\n`);
+  else if (!quiet) io.stderr(`${visible(url)} — Ctrl-C exits\n`);
   await new Promise<void>((done) => {
     const stop = io.onInterrupt(() => {
       stop();

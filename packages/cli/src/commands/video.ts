@@ -92,7 +92,7 @@ function targetOf(output: string, values: { codec?: string; crf?: string }, fps:
   const codecs = codecsOf(container);
   const codec = (values.codec ?? codecs[0]) as VideoCodec;
   if (!VIDEO_CODECS.includes(codec)) throw usage(`--codec must be ${VIDEO_CODECS.join(', ')}, not "${codec}".`);
-  if (!codecs.includes(codec)) throw usage(`A .${container} file holds ${codecs.join(', ')}, not --codec ${codec}.`);
+  if (!codecs.includes(codec)) throw usage(`A .${container} file supports ${codecs.join(', ')}, not --codec ${codec}.`);
   const crf = number('crf', values.crf, defaultCrf(codec), { whole: true, min: 0, max: maxCrf(codec) });
   return { path: output, container, codec, crf, fps };
 }
@@ -106,7 +106,7 @@ export function parseVideo(argv: readonly string[]): VideoCommand {
   const { values, positionals } = parseOptionsOf(argv, VIDEO_OPTIONS);
   const [model, ...rest] = positionals;
   if (model === undefined) throw usage('No model given. Use glanz video MODEL -o VIDEO.mp4.');
-  if (rest.length > 0) throw usage(`One model at a time: what is "${rest[0]}"?`);
+  if (rest.length > 0) throw usage(`One model at a time: unexpected argument "${rest[0]}".`);
   for (const [name, instead] of Object.entries(REFUSED))
     if (values[name as keyof typeof OPTIONS] !== undefined) throw usage(`--${name} is not for videos: ${instead}.`);
   if ((values.output?.length ?? 0) > 1) throw usage('A video is one file: give --output once.');
@@ -118,7 +118,7 @@ export function parseVideo(argv: readonly string[]): VideoCommand {
   const target = targetOf(output, values, fps);
   if (!target && !output.includes(PLACE))
     throw usage(
-      `--output "${output}": a video ends in .mp4, .mov, .webm or .mkv; images need a place for their number: 'frames/{frame}.png'.`,
+      `--output "${output}": a video ends in .mp4, .mov, .webm or .mkv; images need a placeholder for their number: 'frames/{frame}.png'.`,
     );
   if (!target && values.frames !== undefined)
     throw usage('--frames is where the images of a video are kept; here --output says where they go.');
@@ -128,7 +128,7 @@ export function parseVideo(argv: readonly string[]): VideoCommand {
   const options = renderOptions({ ...shared, output: [frames.replaceAll(PLACE, '0')] }, model);
   if (target && (options.width % 2 !== 0 || options.height % 2 !== 0))
     throw usage(
-      `--size ${options.width}x${options.height}: the sides of a video are even, since its colours have half the resolution.`,
+      `--size ${options.width}x${options.height}: width and height of a video must be even, since its colours have half the resolution.`,
     );
   const { animation, time: _, ...pose } = options.pose;
   const degrees =

@@ -68,7 +68,7 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
       if (payload.version !== version())
         throw new CliError(
           'cli/farm',
-          `The job is of glanz ${payload.version}, and this is ${version()}: their images may differ. Submit it with the version of the workers.`,
+          `The job was submitted with glanz ${payload.version}, and this is glanz ${version()}: their images may differ. Submit it with the version of the workers.`,
         );
       signal = stop;
       progress.onSamples = onProgress;

@@ -80,7 +80,7 @@ export async function modelFiles(path: string): Promise<{ readonly main: string;
     if (inside.startsWith('..'))
       throw new CliError(
         'cli/input',
-        `"${basename(path)}" uses "${name}", which lies outside of its folder: workers get the folder's files alone. Pack the model as .glb, or move the file.`,
+        `"${basename(path)}" uses "${name}", which lies outside of its folder: workers get only the files of that folder. Pack the model as .glb, or move the file.`,
         { location: { file: path } },
       );
     names.add(inside.split(sep).join('/'));

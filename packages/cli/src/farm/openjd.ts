@@ -72,7 +72,7 @@ export function openJdTemplate(
   images: readonly Pick<PlannedImage, 'shot' | 'requests'>[],
   { folder, batch, store, outputRoot, cwd, split, gpu, values }: OpenJdOptions,
 ): object {
-  if (images.length === 0) throw new CliError('cli/batch', `${batch}: there is no image in it.`);
+  if (images.length === 0) throw new CliError('cli/batch', `${batch}: it contains no images.`);
   const names = images.map(imageName);
   const variants = [...new Set(names.map((one) => one.split('/')[0] as string))];
   const views = [...new Set(names.map((one) => one.split('/')[1] as string))];

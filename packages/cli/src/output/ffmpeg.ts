@@ -174,7 +174,7 @@ export async function encodeVideo(
     if (code !== 0)
       throw new CliError(
         'cli/ffmpeg',
-        `ffmpeg could not encode "${target.path}" (${killed ?? `exit status ${code}`}): ${stderr.trim().split('\n').at(-1) || 'it does not say why'}. The frames are kept: the same command with --resume encodes them again.`,
+        `ffmpeg could not encode "${target.path}" (${killed ?? `exit status ${code}`}): ${stderr.trim().split('\n').at(-1) || 'no message'}. The frames are kept: the same command with --resume encodes them again.`,
       );
     await rename(partial, file).catch((cause: unknown) => {
       throw new CliError('cli/output', `Cannot write "${target.path}": ${(cause as Error).message}.`, { cause });

@@ -80,21 +80,23 @@ export class CheckpointFile {
   async read(codec: () => Promise<FilmCodec>): Promise<FilmState | undefined> {
     const broken = (why: string, cause?: unknown) =>
       this.#error(
-        `"${this.path}" cannot be resumed: ${why}. Delete it to begin from the first sample, or name another file by --checkpoint.`,
+        `"${this.path}" cannot be resumed: ${why}. Delete it to start from the first sample, or set another file with --checkpoint.`,
         cause,
       );
     const foreign = () =>
-      this.#error(`"${this.path}" is not a checkpoint of glanz; it stays as it is. Name another file by --checkpoint.`);
+      this.#error(
+        `"${this.path}" is not a checkpoint of glanz and is not changed. Set another file with --checkpoint.`,
+      );
     const read = await readFilmFile(this.#file, codec, { foreign, broken }, async (header) => {
       const differing = settingDifferences(header.settings, await this.#ownSettings());
       if (differing.length > 0)
         throw this.#error(
-          `The checkpoint "${this.path}" belongs to another image: ${differing.join('; ')}. Repeat the command that wrote it, or name another file by --checkpoint.`,
+          `The checkpoint "${this.path}" belongs to another image: ${differing.join('; ')}. Repeat the command that wrote it, or set another file with --checkpoint.`,
         );
       const { samples } = this.#shot.options.settings;
       if (header.samples > samples)
         throw this.#error(
-          `The checkpoint "${this.path}" has ${header.samples} samples already, more than --samples ${samples}. Ask for at least as many, or name another file by --checkpoint.`,
+          `The checkpoint "${this.path}" has ${header.samples} samples already, more than --samples ${samples}. Request at least as many, or set another file with --checkpoint.`,
         );
     });
     return read?.film;

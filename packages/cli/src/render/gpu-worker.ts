@@ -230,12 +230,12 @@ export class GpuWorker {
       if (file && film === read)
         throw new CliError(
           'cli/checkpoint',
-          `The checkpoint "${file.path}" belongs to another image: ${error.message} Repeat the command that wrote it, or name another file by --checkpoint.`,
+          `The checkpoint "${file.path}" belongs to another image: ${error.message} Repeat the command that wrote it, or set another file with --checkpoint.`,
           { cause: error, location: { file: file.path } },
         );
       // Another GPU may read other formats of textures, which makes it another scene.
       this.#context.progress.warning(
-        `${shotLabel(shot)}: begins from the first sample, since this GPU cannot continue the samples of another.`,
+        `${shotLabel(shot)}: starts from the first sample, since this GPU cannot continue the samples of another.`,
       );
       checkpoints.forget();
       tracer.reset();
@@ -316,7 +316,7 @@ export class GpuWorker {
     if (!this.#gpu.opened) {
       progress.stage('start GPU');
       const { software, adapterName } = await timed('deviceMs', () => this.#gpu.open());
-      progress.line(`${software ? 'no GPU: rendering on the processor, ' : ''}${adapterName}`);
+      progress.line(`${software ? 'no GPU: rendering on the CPU, ' : ''}${adapterName}`);
     }
     return (this.#gpu.opened as unknown as OpenedGpu).device;
   }

@@ -45,7 +45,7 @@ export async function readFilms(paths: readonly string[], cwd: string, backend: 
           );
           if (differing.length > 0)
             throw wrong(
-              `"${path}" cannot be merged with "${paths[0]}": ${differing.join('; ')}. Films to be merged differ in --samples-from and --samples alone.`,
+              `"${path}" cannot be merged with "${paths[0]}": ${differing.join('; ')}. Films to be merged may differ only in --samples-from and --samples.`,
             );
         },
       );

@@ -1,15 +1,15 @@
 import type { RenderOptionName } from './table';
 
 /**
- * What people read about an option. A module apart from the table: bundlers put whole modules into a chunk, and a page
- * loads the texts with its settings panel, not before its first image.
+ * The documentation of an option. The texts are in a module of their own: bundlers put whole modules into a chunk, and a
+ * page loads the texts with its settings panel, not before its first image.
  */
 export interface RenderOptionText {
   /** One or two sentences. */
   readonly doc: string;
   /** Unit of the number. */
   readonly unit?: string;
-  /** Whether it makes the result biased: some light is missing or moved, for less noise or time. */
+  /** Whether it makes the result biased: it removes or blurs some light, for less noise or time. */
   readonly biased?: boolean;
   /** The part of the range that a slider offers; default: the whole range. */
   readonly softRange?: readonly [number, number];
@@ -22,10 +22,10 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     softRange: [1, 4096],
   },
   noise: {
-    doc: 'Samples only where there is noise, until the relative standard error is everywhere at most this: 0.05 is a preview, 0.01 hardly visible. 0: no target.',
+    doc: 'Relative standard error at which a part of the image is finished: 0.05 is enough for a preview, noise of 0.01 is hardly visible. 0: no target.',
     softRange: [0, 0.1],
   },
-  maxSubmitMs: { doc: 'GPU time of one submission at most.', unit: 'ms', softRange: [1, 100] },
+  maxSubmitMs: { doc: 'Maximum GPU time of one submission.', unit: 'ms', softRange: [1, 100] },
   maxDepth: {
     doc: 'Maximum number of edges of a path from the camera to a light: 1 shows only emitters, 2 adds direct light.',
     softRange: [1, 16],
@@ -44,11 +44,11 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     unit: 'pixels',
   },
   lightGroups: {
-    doc: 'Keeps groups of lights apart, as layers of the film: those that the scene names, each light, or none.',
+    doc: 'Stores the light of groups separately, as layers of the film: the groups that the scene names, each light, or none.',
   },
   aovs: { doc: 'First-hit layers that stay on the GPU, such as the guides of a denoiser: means over 64 samples.' },
   backFaceCulling: {
-    doc: 'Leaves out single-sided faces that show the camera their back: for the camera only, or for all rays.',
+    doc: 'Culls single-sided faces that are seen from behind: for camera rays only, or for all rays.',
   },
   maxBounces: {
     doc: 'Maximum number of bounces of each kind. What is not listed is not limited.',
@@ -59,24 +59,24 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     biased: true,
   },
   shadowSoftness: {
-    doc: 'Softens shadows on catchers: 0 is as the lights cast them, 1 spreads rays by up to 30 degrees.',
+    doc: 'Softens shadows on catchers: 0 leaves them unchanged, 1 spreads shadow rays by up to 30 degrees.',
     biased: true,
   },
   clampIndirect: {
-    doc: 'Maximum radiance of light that took two bounces or more. Removes fireflies, and energy with them.',
+    doc: 'Maximum radiance of light after two or more bounces. Removes fireflies, and energy with them.',
     biased: true,
     softRange: [0, 100],
   },
   caustics: {
-    doc: 'Light that reaches a matte surface through a sharp reflection or refraction.',
+    doc: 'Light that reaches a matte surface by a sharp reflection or refraction.',
     biased: true,
   },
   guiding: {
-    doc: 'Millions of paths that learn, before the first sample, from where light comes to surfaces; 0 is off.',
+    doc: 'Number of training paths of the path guide, in millions, traced before the first sample; 0 is off.',
     softRange: [0, 64],
   },
   multipleScattering: {
-    doc: 'Compensates the energy that single-scattering microfacet models lose. Off only for comparisons.',
+    doc: 'Compensates for the energy that single-scattering microfacet models lose. Turn it off only for comparisons.',
   },
   sampler: { doc: 'Source of the random numbers. All are unbiased; `independent` converges slower.' },
   lightSampling: {

@@ -18,7 +18,7 @@ export interface LoadModel {
 /** @throws {BenchError} `bench/assets` */
 export function loadModels(): LoadModel[] {
   if (!existsSync(join(ASSETS, 'index.json')))
-    throw new BenchError('bench/assets', 'There are no test models in ../shared/assets beside the repository.');
+    throw new BenchError('bench/missing-data', 'There are no test models in ../shared/assets beside the repository.');
   const index = JSON.parse(readFileSync(join(ASSETS, 'index.json'), 'utf8')) as readonly {
     name: string;
     main: string;

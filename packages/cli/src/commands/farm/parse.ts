@@ -94,7 +94,7 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
   const [action, ...args] = positionals;
   if (!FARM_ACTIONS.includes(action as Action))
     throw usage(
-      `${action === undefined ? 'Nothing' : `"${action}"`} is not an action of glanz farm. Known: ${FARM_ACTIONS.slice(0, -1).join(', ')}. See glanz help farm.`,
+      `${action === undefined ? 'glanz farm needs an action' : `glanz farm has no action "${action}"`}. Known: ${FARM_ACTIONS.slice(0, -1).join(', ')}. See glanz help farm.`,
     );
   const is = action as Action;
   const warnings: string[] = [];
@@ -122,7 +122,7 @@ export function parseFarm(argv: readonly string[], environment: NodeJS.ProcessEn
   if (REDIS.includes(is) && redis === undefined)
     throw usage(`glanz farm ${is} needs --redis redis://HOST:6379, or GLANZ_REDIS in the environment.`);
   if ((is === 'work' || is === 'status' || is === 'serve' || is === 'clean') && args.length > 0)
-    throw usage(`glanz farm ${is} takes no files: what is "${args[0]}"?`);
+    throw usage(`glanz farm ${is} takes no files: unexpected argument "${args[0]}".`);
   if ((is === 'retry' || is === 'cancel') && args.length > 0 === (given.all ?? false))
     throw usage(`glanz farm ${is} takes ids of jobs, which glanz farm status lists, or --all.`);
   if (is === 'clean' && olderThan === undefined)

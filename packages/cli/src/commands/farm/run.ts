@@ -132,7 +132,7 @@ async function submit(
       command,
       io,
       { version: version(), images, queued, finished, store: store.address.url, totalMs: io.now() - start },
-      `${images} images: ${queued} jobs queued${finished > 0 ? `, ${finished} results there already` : ''}, in ${duration(io.now() - start)}`,
+      `${images} images: ${queued} jobs queued${finished > 0 ? `, ${finished} results exist already` : ''}, in ${duration(io.now() - start)}`,
     );
     return EXIT.ok;
   });
