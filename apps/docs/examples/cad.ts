@@ -7,7 +7,7 @@ import {
 } from '@glanz/cad';
 import { openOcct } from '@glanz/cad/node';
 
-/** GLB files of a STEP file, from fine to coarse. */
+/** Converts a STEP file to GLB files, from fine to coarse. */
 export async function stepToGlb(
   stepBytes: Uint8Array,
   map: unknown,

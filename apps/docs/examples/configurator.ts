@@ -2,7 +2,7 @@ import type { PathTracer } from '@glanz/renderer';
 import type { Mesh, Scene } from '@glanz/scene';
 
 // #region catalogue
-/** A choice of a customer: the parts that it shows, and their materials. */
+/** A choice of an option: the parts that it shows, and their materials. */
 export interface Choice {
   readonly name: string;
   readonly shows?: readonly string[];
@@ -14,7 +14,7 @@ export interface Option {
   readonly choices: readonly Choice[];
 }
 
-/** How many assemblies a catalogue has. */
+/** Number of possible assemblies of a catalogue. */
 export const assemblies = (options: readonly Option[]) =>
   options.reduce((product, { choices }) => product * choices.length, 1);
 // #endregion catalogue
@@ -46,7 +46,7 @@ export async function choose(
 
 // #region legend
 /**
- * A part whose shape is made on demand, such as an engraved legend: only its
+ * A part whose mesh is generated on demand, such as an engraved legend: only its
  * own hierarchy is built.
  */
 export const engrave = (tracer: PathTracer, mesh: Mesh) =>
@@ -54,7 +54,7 @@ export const engrave = (tracer: PathTracer, mesh: Mesh) =>
 // #endregion legend
 
 // #region address
-/** The assembly in the page's address, to be sent to someone. */
+/** The assembly in the page's URL, as a link to share. */
 export const toAddress = (choices: Readonly<Record<string, string>>) =>
   `#${new URLSearchParams(choices)}`;
 export const fromAddress = (hash: string): Record<string, string> =>
@@ -63,8 +63,8 @@ export const fromAddress = (hash: string): Record<string, string> =>
 
 // #region hidden
 /**
- * All parts in one scene: what is hidden costs memory on the CPU only, until it
- * is shown for the first time.
+ * All parts in one scene: a hidden part uses memory on the CPU only, until it is
+ * shown for the first time.
  */
 export function withHidden(scene: Scene, hidden: ReadonlySet<string>): Scene {
   return {

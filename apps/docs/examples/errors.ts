@@ -7,7 +7,7 @@ export async function open(url: string, say: (text: string) => void) {
   } catch (error) {
     if (!(error instanceof GlanzError)) throw error; // a bug: let it surface
     if (error.code === 'gltf/truncated')
-      say('The download was cut off. Try again?');
+      say('The file is incomplete. Load it again?');
     else say(error.message);
     return undefined;
   }

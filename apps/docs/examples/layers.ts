@@ -3,7 +3,7 @@ import { PathTracer } from '@glanz/renderer';
 import type { Scene } from '@glanz/scene';
 
 // #region mask
-/** Coverage of one part, 0 or 1 a pixel. */
+/** Mask of one part: 0 or 1 per pixel. */
 export async function maskOf(
   tracer: PathTracer,
   name: string,
@@ -89,6 +89,6 @@ export async function withLightGroups(device: GPUDevice, scene: Scene) {
   // environment, lamp, screen, …
   for (const { name } of tracer.lightGroups) console.log(name);
   await tracer.setLightGroup('lamp', { intensity: 0.5, color: [1, 0.8, 0.6] });
-  return tracer.readLightGroup('lamp'); // its part of the image, RGBA
+  return tracer.readLightGroup('lamp'); // its light in the image, RGBA
 }
 // #endregion lights

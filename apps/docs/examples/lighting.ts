@@ -70,7 +70,7 @@ export function addPunctualLights(scene: Scene): Scene {
 
 // #region profile
 export function addDownlight(scene: Scene, ies: Uint8Array): Scene {
-  const profile = readIes(ies); // candela, by the angles of the measurement
+  const profile = readIes(ies); // candela, by measured angle
   return {
     ...scene,
     lights: [

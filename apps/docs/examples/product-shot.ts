@@ -5,7 +5,7 @@ import { studioEnvironment } from '@glanz/scene/studio';
 import { toneMapPixels } from '@glanz/tonemap';
 
 // #region floor
-/** The scene on a floor that is there for shadows and reflections only. */
+/** The scene on an invisible floor that catches shadows and reflections. */
 export function onFloor(scene: Scene): Scene {
   const { min, max } = sceneBounds(scene);
   const size =
@@ -55,7 +55,7 @@ export function onFloor(scene: Scene): Scene {
 // #endregion floor
 
 // #region shot
-/** A cut-out with its shadow: a PNG with alpha, ready to be put on any page. */
+/** The product with its shadow as a PNG with alpha, for any background. */
 export async function productShot(
   device: GPUDevice,
   scene: Scene,

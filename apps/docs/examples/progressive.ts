@@ -59,7 +59,7 @@ export function renderUntilClicked(
       samples: 4096,
       signal: abort.signal,
     }));
-    return tracer.read('beauty'); // what there is: an abort is no error
+    return tracer.read('beauty'); // the samples so far: an abort is no error
   })();
 }
 // #endregion abort
@@ -105,7 +105,7 @@ export async function renderRange(
   return encodeFilmState(await tracer.saveFilm());
 }
 
-/** Linear RGBA of all samples together. */
+/** Linear RGBA of all samples. */
 export function mergedImage(films: readonly Uint8Array[]) {
   const merged = mergeFilmStates(films.map(decodeFilmState));
   return readFilmState(merged, 'beauty');

@@ -38,8 +38,8 @@ struct Vertex { @builtin(position) position: vec4f, @location(0) at: vec2f }
 // #endregion shader
 
 /**
- * How the ball looks: a unit vector to the light, roughness, linear colour and
- * index of refraction.
+ * Uniforms of the sphere: a unit vector to the light, roughness, linear colour
+ * and index of refraction.
  */
 export interface BallLook {
   readonly light: readonly [number, number, number];

@@ -38,7 +38,7 @@ export function sphere(rings = 48): Mesh {
   };
 }
 
-/** Three spheres on a table: one mesh, placed three times. */
+/** Three spheres on a table: one mesh with three instances. */
 export function createSpheres(): Scene {
   const scene = createScene('Spheres');
   scene.materials = [

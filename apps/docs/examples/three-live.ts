@@ -12,7 +12,7 @@ export async function follow(canvas: HTMLCanvasElement, signal: AbortSignal) {
   });
   const frame = async () => {
     if (signal.aborted) return tracer.destroy();
-    // What the application has moved or changed since the last frame.
+    // The changes that the application has made since the last frame.
     await tracer.update();
     await tracer.sample();
     tracer.render();

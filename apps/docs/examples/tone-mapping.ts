@@ -31,7 +31,7 @@ export async function createView(
 
 // #region change
 export async function brighter(view: Awaited<ReturnType<typeof createView>>) {
-  // Compiles without stalling, then takes over.
+  // Compiles in the background and is then used.
   await view.pass.setOptions({ exposure: 1, toneMap: 'neutral' });
   view.draw(); // no new samples needed
 }

@@ -233,12 +233,12 @@ describe('glTF', () => {
     expect(dropped.meshes.length).toBe(1);
   });
 
-  test('a download that was cut off is reported', async () => {
+  test('an incomplete download is reported', async () => {
     const said: string[] = [];
     expect(
       await open(dataUrl(triangleGlb().slice(0, 100), 'model/gltf-binary'), (text) => said.push(text)),
     ).toBeUndefined();
-    expect(said).toEqual(['The download was cut off. Try again?']);
+    expect(said).toEqual(['The file is incomplete. Load it again?']);
   });
 });
 

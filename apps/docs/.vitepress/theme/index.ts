@@ -17,13 +17,13 @@ export default {
   Layout: () =>
     h(DefaultTheme.Layout, null, { 'home-hero-image': () => h(HomeViewer), 'home-hero-after': () => h(HomeGallery) }),
   enhanceApp({ app, router }) {
-    // As the built pages say it, for those who come here by a link.
+    // As in the built pages, for pages that are opened by a link within the site.
     router.onAfterRouteChange = () => {
       const content = typeof document === 'undefined' ? null : document.getElementById('VPContent');
       if (content?.classList.contains('is-home')) content.setAttribute('role', 'main');
       else content?.removeAttribute('role');
     };
-    // With their data, which most pages do not show.
+    // Loaded on demand with their data, which most pages do not need.
     app.component(
       'FigureGrid',
       defineAsyncComponent(() => import('./FigureGrid.vue')),
