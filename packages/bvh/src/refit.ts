@@ -19,7 +19,7 @@ import {
 
 /**
  * Fits the boxes of a BLAS to moved vertices, in place; the tree keeps its topology, so its quality drops as the mesh
- * departs from the one that it was built for: `RefitQuality` of `@glanz/bvh/refit-quality` says when to rebuild.
+ * departs from the one that it was built for: `RefitQuality` of `@glanz/bvh/refit-quality` tells when to rebuild.
  * Triangles that were left out of the build stay out.
  *
  * @param mesh The mesh with its new positions; same triangles, same order.

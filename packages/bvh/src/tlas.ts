@@ -9,8 +9,8 @@ export interface Tlas {
   readonly nodes: Float32Array<ArrayBuffer>;
   readonly nodeCount: number;
   /**
-   * Leaf order → instance given. Instances that nothing can hit are left out: empty BLAS, a transform that is not
-   * finite or flattens space.
+   * Leaf order → instance given. Instances that no ray can hit are left out: those with an empty BLAS, or with a
+   * transform that is not finite or is singular.
    */
   readonly instanceOrder: Uint32Array<ArrayBuffer>;
   /**

@@ -1,8 +1,8 @@
 import { GlanzError } from '@glanz/scene';
 
 /**
- * Thrown by this package. Codes: `cad/format` (not a file that is known), `cad/unreadable` (broken, or beyond what the
- * reader can), `cad/no-shapes`, `cad/materials` (a material map that makes no sense), `cad/option`,
- * `cad/missing-resource`.
+ * Thrown by this package. Codes: `cad/format` (an unknown file format), `cad/unreadable` (an invalid file, or one that
+ * the reader does not support), `cad/no-shapes`, `cad/materials` (an invalid material map), `cad/option` (an option out
+ * of its range), `cad/missing-resource` (a file that cannot be read).
  */
 export class CadError extends GlanzError {}

@@ -8,9 +8,9 @@ export interface WrittenMaterial {
 }
 
 /**
- * What glTF can say of an OpenPBR material: metallic-roughness, index, specular weight and colour, coat, fuzz as sheen,
- * film, transmission with absorption, emission, opacity. Subsurface scattering becomes its colour; textures are not
- * written.
+ * The glTF material that is closest to an OpenPBR material: metallic-roughness, index, specular weight and colour,
+ * coat, fuzz as sheen, film, transmission with absorption, emission, opacity. Subsurface scattering becomes its colour;
+ * textures are not written.
  */
 export function toGltfMaterial({ name, parameters, double_sided }: Material): WrittenMaterial {
   const p = resolveParameters(parameters);

@@ -6,7 +6,7 @@ import { withUsedVertices } from './scene';
 
 /** Options for {@link levelsOfDetail}. */
 export interface LevelOptions {
-  /** How many scenes come out, the first being the one given; default 3. */
+  /** Number of scenes returned, of which the first is the one given; default 3. */
   readonly levels?: number;
   /** Triangles of a level over those of the level before; default 1/4. */
   readonly ratio?: number;

@@ -16,8 +16,8 @@ export async function openOcct(): Promise<unknown> {
 /** Options for {@link convertCadFile}. */
 export interface ConvertCadOptions extends Pick<CadOptions, 'tolerance' | 'angularTolerance' | 'format'> {
   /**
-   * Levels of detail; default 1. The first goes to `output`, others to the same name with `.lod1`, `.lod2` before the
-   * ending.
+   * Levels of detail; default 1. The first is written to `output`, the others to the same name with `.lod1`, `.lod2`
+   * before the extension.
    */
   readonly levels?: number;
   /** A map, or the path of a JSON file with one. */

@@ -32,7 +32,7 @@ export interface Occt {
 
 /** Options for {@link readCad}. */
 export interface CadOptions {
-  /** Default: what the first bytes say. */
+  /** Default: detected from the first bytes. */
   readonly format?: 'step' | 'iges' | 'brep';
   /** How far triangles may lie from the surface. Default: a thousandth of the model's size. */
   readonly tolerance?: { readonly relative: number } | { readonly metres: number };

@@ -5,9 +5,7 @@ import type { CadColor, CadModel, CadPart } from './read';
 /** Options for {@link cadToScene}. */
 export interface CadSceneOptions {
   readonly materials?: CadMaterialMap;
-  /**
-   * Leaves out everything that reveals where parts come from: names of parts, assemblies and the file. Default false.
-   */
+  /** Leaves out the names of parts, assemblies and the file. Default false. */
   readonly strip?: boolean;
   /** Which axis of the file points up; default `z`. */
   readonly up?: 'y' | 'z';

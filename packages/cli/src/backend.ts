@@ -43,7 +43,7 @@ export interface FilmCodec {
 export interface OpenedGpu {
   readonly device: GPUDevice;
   readonly adapterName: string;
-  /** Whether the processor stands in for a GPU. */
+  /** Whether the adapter renders on the CPU. */
   readonly software: boolean;
 }
 

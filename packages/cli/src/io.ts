@@ -1,7 +1,7 @@
 /** Signals that end a render early. */
 export type Interrupt = 'SIGINT' | 'SIGTERM' | 'SIGHUP';
 
-/** The environment of a command; tests bring their own. */
+/** Input, output and time of a command; tests replace them. */
 export interface CliIo {
   /** Machine-readable output and help. */
   readonly stdout: (text: string) => void;
@@ -17,7 +17,7 @@ export interface CliIo {
   readonly debug: boolean;
   /** Milliseconds, monotonic. */
   readonly now: () => number;
-  /** Resolves after so many milliseconds, or when `signal` aborts. */
+  /** Resolves after `milliseconds`, or when `signal` aborts. */
   readonly wait: (milliseconds: number, signal: AbortSignal) => Promise<void>;
   /** Calls `handler` at the first interrupt; a second one ends the process at once. Returns how to stop listening. */
   readonly onInterrupt: (handler: (signal: Interrupt) => void) => () => void;
@@ -40,7 +40,10 @@ function writerOf(stream: NodeJS.WriteStream): (text: string) => void {
   };
 }
 
-/** The environment of this process. A stdout or stderr that closes early goes quiet; it does not end the process. */
+/**
+ * The environment of this process. After stdout or stderr is closed, output to it is discarded; the process does not
+ * end.
+ */
 export function nodeIo(): CliIo {
   const { env, stderr, stdout } = process;
   const interactive = stderr.isTTY === true && env.TERM !== 'dumb';

@@ -69,8 +69,8 @@ async function filesBelow(folder: string): Promise<string[]> {
 }
 
 /**
- * Writes a project that shows a path-traced model: the files of a template, a sample model, and a package.json that
- * asks for the versions of Glanz that this package was published with. Nothing is installed or downloaded.
+ * Writes a project that shows a path-traced model: the files of a template, a sample model, and a package.json with the
+ * versions of Glanz that this package was published with. Nothing is installed or downloaded.
  *
  * @throws {CreateError} `create-glanz/template`, `create-glanz/name`, `create-glanz/folder`, `create-glanz/write`; where
  * one of the first three is thrown, nothing was written.

@@ -2,7 +2,7 @@ import { CreateError } from './errors';
 
 /** One template: what kind of project it makes. */
 export interface Template {
-  /** As `--template` takes it. */
+  /** The value of `--template`. */
   readonly name: TemplateName;
   /** What the project is, in a few words. */
   readonly title: string;

@@ -16,8 +16,8 @@ import type {
 import { Pace } from './pace';
 
 /**
- * Denoises images in GPU buffers by a network of Open Image Denoise. One network; images of any size, one at a time, later
- * calls wait. Memory and shaders for a size are made at its first use and kept until another size comes.
+ * Denoises images in GPU buffers by a network of Open Image Denoise. One network; images of any size, one at a time,
+ * later calls wait. Memory and shaders for a size are created at its first use and kept until another size is used.
  *
  * @example
  * const denoiser = await Denoiser.create(device, weights, { input: 'hdr' });
@@ -51,7 +51,7 @@ export class Denoiser {
   }
 
   /**
-   * Reads a network and compiles what does not depend on the size of images.
+   * Reads a network and compiles the kernels that do not depend on the image size.
    *
    * @param weights The whole content of a .tza file of Open Image Denoise. Nothing is downloaded.
    * @throws {DenoiseError} `denoise/weights`, `denoise/option`, `denoise/pipeline`.
@@ -106,8 +106,8 @@ export class Denoiser {
   }
 
   /**
-   * Records the whole work into an encoder of yours, for an application that runs a frame loop of its own. Uniforms are
-   * written on the queue, ahead of the encoder: submit it before the next call of any method.
+   * Records all work into a command encoder of the application, which may have its own frame loop. Uniforms are written
+   * on the queue, ahead of the encoder: submit it before the next call of any method.
    *
    * @throws {DenoiseError} as {@link denoise} does; `denoise/size` too where {@link prepare} was not called for this size
    * before.

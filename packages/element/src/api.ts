@@ -15,7 +15,7 @@ export interface GlanzViewerEventMap {
   error: CustomEvent<ViewerEvents['error']>;
   /**
    * An environment cannot be fetched or read, and the model is shown without it; the image cannot be denoised, and is
-   * shown with its noise; or the GPU has not come yet. `message` in one line, and `code`.
+   * shown with its noise; or the GPU is not available yet. `message` in one line, and `code`.
    */
   warning: CustomEvent<Omit<ViewerEvents['warning'], 'error'> & { readonly error: unknown }>;
   /** The image has one more sample per pixel. */
@@ -24,7 +24,7 @@ export interface GlanzViewerEventMap {
   converged: CustomEvent<ViewerEvents['converged']>;
   /** The camera moved, by the user or by the page. */
   'camera-change': CustomEvent<ViewerEvents['camera-change']>;
-  /** The GPU was lost; the element asks for another. */
+  /** The GPU was lost; the element requests another device. */
   'device-lost': CustomEvent<ViewerEvents['device-lost']>;
   /** Another GPU device renders after a loss. */
   'device-restored': CustomEvent<ViewerEvents['device-restored']>;
@@ -81,7 +81,7 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
    * @deprecated Use `exposureEv`, the factor's base-2 logarithm. Supported until the next minor version.
    */
   exposure: number | null;
-  /** Whether the model that `src` names is there. */
+  /** Whether the model that `src` names is loaded. */
   readonly loaded: boolean;
   /** Names of the model's variants. */
   readonly availableVariants: readonly string[];
@@ -96,8 +96,8 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   /** Factor of the animation's speed; below 0 it plays backwards. Default 1. */
   timeScale: number;
   /**
-   * Plays the animation that `animation-name` names, or else the first one, from where it is: without end, or so many
-   * `repetitions`, every second one backwards with `pingpong`. Does nothing before the `load` event.
+   * Plays the animation that `animation-name` names, or else the first one, from its current time: endlessly, or
+   * `repetitions` times, with every second repetition backwards with `pingpong`. Does nothing before the `load` event.
    */
   play(options?: PlayOptions): void;
   /** Stops the animation where it is; the image of that pose is then refined to its end. */
@@ -106,16 +106,16 @@ export interface GlanzViewerElement extends HTMLElement, ReflectedProperties {
   show(source: ModelSource): Promise<void>;
   /**
    * The image as a file; see `Viewer.toBlob`.
-   * @throws {ElementError} `element/no-model` where no model was asked for; what the load of the model throws.
+   * @throws {ElementError} `element/no-model` where no model was requested; the errors of loading the model.
    */
   toBlob(options?: ElementBlobOptions): Promise<Blob>;
-  /** Where the camera goes around its target. */
+  /** The orbit of the camera around its target. */
   getCameraOrbit(): Orbit | undefined;
   /** Vertical field of view, degrees. */
   getFieldOfView(): number;
   /** Is where it was going. */
   jumpCameraToGoal(): void;
-  /** Frames the model again, as the attributes say. */
+  /** Frames the model again according to the attributes. */
   updateFraming(): void;
   /** Shows the model under the poster, which `reveal="manual"` waits for. */
   dismissPoster(): void;

@@ -2,20 +2,20 @@
 export type AttributeKind = 'text' | 'flag' | 'number';
 
 /**
- * The attributes of the element. Names that model-viewer has mean what they mean there. The property of each is its
- * name in camel case, and reflects. `custom-elements.json`, which editors read, is made of these comments; `@option`
- * stands for the values and the default of an option of the renderer, whose range is that of the attribute.
+ * The attributes of the element. Attributes that model-viewer has too have the same meaning. The property of each is
+ * its name in camel case, and reflects. `custom-elements.json`, which editors read, is generated from these comments;
+ * `@option` stands for the values and the default of an option of the renderer, whose range is that of the attribute.
  */
 export const ATTRIBUTES = {
   /** Address of the model: glTF, GLB, OBJ, STL or USD. */
   src: 'text',
-  /** Name of the model, for those who do not see it. */
+  /** Alternative text: a description of the model for screen readers. */
   alt: 'text',
   /** Address of an image that is shown until the model is rendered. */
   poster: 'text',
   /**
-   * With `reveal="auto"`: samples per pixel that the image must have before the poster goes. It also goes when the
-   * image is finished and when the user moves the camera.
+   * With `reveal="auto"`: samples per pixel at which the image replaces the poster. It also does so when the image is
+   * finished and when the user moves the camera.
    * @defaultValue 64
    */
   'poster-samples': 'number',
@@ -26,7 +26,7 @@ export const ATTRIBUTES = {
    */
   loading: 'text',
   /**
-   * When the poster goes: by itself, once the image is better (see `poster-samples`), or at `dismissPoster()`.
+   * When the poster disappears: once the image has enough samples (see `poster-samples`), or at `dismissPoster()`.
    * @values auto, manual
    * @defaultValue auto
    */
@@ -40,7 +40,7 @@ export const ATTRIBUTES = {
   /** With `camera-controls`: the camera does not zoom. */
   'disable-zoom': 'flag',
   /**
-   * With `camera-controls`: factor of how far a movement of the pointer or a key orbits.
+   * With `camera-controls`: factor of the orbit angle per movement of the pointer or key press.
    * @defaultValue 1
    */
   'orbit-sensitivity': 'number',
@@ -55,8 +55,8 @@ export const ATTRIBUTES = {
    */
   'zoom-sensitivity': 'number',
   /**
-   * With `camera-controls`: whether a hand shows that the model can be turned, once, where the user does nothing for a
-   * while. Not shown to users who ask for less motion.
+   * With `camera-controls`: whether an icon of a hand shows that the model can be orbited, once, after a time without
+   * input. Not shown to users who prefer reduced motion.
    * @values auto, none
    * @defaultValue none
    */
@@ -67,7 +67,7 @@ export const ATTRIBUTES = {
    */
   'interaction-prompt-threshold': 'number',
   /**
-   * How the prompt looks: a hand that moves to and fro, or one that stands still.
+   * Style of the prompt: a moving hand, or a still one.
    * @values wiggle, basic
    * @defaultValue wiggle
    */
@@ -83,7 +83,7 @@ export const ATTRIBUTES = {
    */
   'camera-orbit': 'text',
   /**
-   * The point that the camera looks at: `x y z`, or `auto`, the middle of the model.
+   * The point that the camera looks at: `x y z`, or `auto`, the centre of the model.
    * @defaultValue auto
    */
   'camera-target': 'text',
@@ -103,11 +103,11 @@ export const ATTRIBUTES = {
    */
   'max-camera-orbit': 'text',
   /**
-   * Milliseconds in which 63 % of a camera movement is done.
+   * Time constant of camera movements, in milliseconds: after this time 63 % of a movement is done.
    * @defaultValue 60
    */
   'interpolation-decay': 'number',
-  /** The camera orbits by itself. */
+  /** The camera orbits continuously while there is no input. */
   'auto-rotate': 'flag',
   /**
    * Milliseconds after an interaction before the camera orbits again.
@@ -157,20 +157,21 @@ export const ATTRIBUTES = {
   'tone-mapping': 'text',
   /** Name of the animation that poses the model, and that plays; without it the first one plays. */
   'animation-name': 'text',
-  /** The animation plays when the model is loaded, unless the user asks for less motion. */
+  /** The animation plays when the model is loaded, unless the user prefers reduced motion. */
   autoplay: 'flag',
   /**
-   * How the model is turned: `roll pitch yaw`, about +Z, then +X, then +Y, in deg or rad.
+   * Rotation of the model: `roll pitch yaw`, about +Z, then +X, then +Y, in deg or rad.
    * @defaultValue 0deg 0deg 0deg
    */
   orientation: 'text',
   /**
-   * Factors of the model's size along x, y and z, which are not 0; one for all of them.
+   * Scale of the model along x, y and z, not 0; or one number for all three.
    * @defaultValue 1 1 1
    */
   scale: 'text',
   /**
-   * Strength of the shadow on the ground beneath the model, 0 to 1. The shadow is as soft as the lights make it.
+   * Strength of the shadow on the ground beneath the model, 0 to 1. Its softness follows from the lights; see
+   * `shadow-softness`.
    * @defaultValue 0
    */
   'shadow-intensity': 'number',
@@ -181,7 +182,7 @@ export const ATTRIBUTES = {
   'ground-reflection': 'number',
   /** Requests for models and environments send credentials to other origins too. */
   'with-credentials': 'flag',
-  /** Name of the model's material variant; its own without. */
+  /** Name of the model's material variant. Without it, the default materials. */
   'variant-name': 'text',
   /**
    * Samples per pixel at which the image is finished.
@@ -189,7 +190,7 @@ export const ATTRIBUTES = {
    */
   samples: 'number',
   /**
-   * Relative noise at which the image is finished, if it comes before `samples`.
+   * Relative noise at which the image is finished, if reached before `samples`.
    * @option noise
    */
   noise: 'number',
@@ -198,16 +199,16 @@ export const ATTRIBUTES = {
    * @option maxDepth
    */
   'max-depth': 'number',
-  /** Film pixels per CSS pixel; the screen's without. */
+  /** Film pixels per CSS pixel. Without it, the device pixel ratio of the screen. */
   'pixel-ratio': 'number',
   /**
-   * Leaves out faces that show the camera their back: for the camera alone, or for all rays.
+   * Culls single-sided faces that are seen from behind: for camera rays only, or for all rays.
    * @option backFaceCulling
    */
   'back-face-culling': 'text',
   /**
-   * Softens the shadow on the ground beneath the model, 0 to 1: 0 is as the lights cast it, 1 spreads it by 30 degrees.
-   * A biased option.
+   * Softens the shadow on the ground beneath the model, 0 to 1: 0 leaves it unchanged, 1 spreads shadow rays by up to
+   * 30 degrees. A biased option.
    * @option shadowSoftness
    */
   'shadow-softness': 'number',
@@ -222,13 +223,13 @@ export const ATTRIBUTES = {
    */
   'ktx2-transcoder': 'text',
   /**
-   * Address of an ES module whose default export is what `denoising()` of `@glanz/viewer/denoise` returns: images are
-   * denoised while they have few samples.
+   * Address of an ES module whose default export is what `denoising()` of `@glanz/viewer/denoise` returns: with it,
+   * images are denoised while they have few samples.
    */
   denoise: 'text',
   /**
-   * What is shown while the view moves: the film's samples as they are (`raw`), filtered over time (`filtered`), or the
-   * latter unless the adapter is software (`auto`).
+   * Image while the view moves: the film's samples as they are (`raw`), filtered over time (`filtered`), or the latter
+   * unless the adapter is software (`auto`).
    * @values auto, raw, filtered
    * @defaultValue auto
    */

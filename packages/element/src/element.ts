@@ -48,7 +48,7 @@ function finite(name: string, value: unknown): number {
   throw new ElementError('element/property', `The property ${name} of <glanz-viewer> is ${given}; it takes a number.`);
 }
 
-/** The class of the element, made when it is first asked for: a server has no `HTMLElement`. */
+/** The class of the element, created at the first call, since a server has no `HTMLElement`. */
 export function glanzViewerClass(): GlanzViewerConstructor {
   return (made ??= makeClass());
 }
@@ -579,9 +579,9 @@ function makeClass(): GlanzViewerConstructor {
 }
 
 /**
- * Makes `<glanz-viewer>` known to the page. May be called any number of times, and on a server, where it does nothing.
+ * Defines the custom element `<glanz-viewer>`. Repeated calls have no effect; on a server it does nothing.
  *
- * @param tag Another name for it; one class has one name only, so the first call decides.
+ * @param tag Another tag name. A class has one name only, so the first call decides.
  */
 export function defineGlanzViewer(tag = 'glanz-viewer'): void {
   if (typeof customElements === 'undefined' || customElements.get(tag)) return;

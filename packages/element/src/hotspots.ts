@@ -17,7 +17,7 @@ export interface HotspotView {
   readonly x: number;
   readonly y: number;
   /**
-   * Whether it lies in the image, its surface faces the camera, and, where that is asked for, nothing is in front of
+   * Whether it is in the image, its surface faces the camera, and, where occlusion is tested, no surface is in front of
    * it.
    */
   readonly visible: boolean;

@@ -21,7 +21,7 @@ export const isModelFile = (path: string): boolean => /\.(obj|stl|usd[acz]?)$/i.
 
 /**
  * Loads an `.obj`, `.stl`, `.usdz`, `.usdc` or `.usda` file in Node, with the materials and images beside it. Files
- * outside its folder are not read. `up` and `unit` are for files that do not say either: USD does.
+ * outside its folder are not read. `up` and `unit` apply to OBJ and STL; USD files define both.
  *
  * @throws {FormatError} See its codes.
  * @example

@@ -12,7 +12,7 @@ export interface ObjOptions {
   /** What messages call the file. Default "OBJ". */
   readonly name?: string;
   /**
-   * Reads the MTL files and the images beside the document. Default: nothing is there, and the material is the
+   * Reads the MTL files and the images beside the document. Default: no files are found, and the material is the
    * default one.
    */
   readonly read?: ResourceReader;

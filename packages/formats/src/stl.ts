@@ -7,7 +7,7 @@ import { orientation } from './orientation';
 export interface StlOptions {
   /** What messages and the mesh are called. Default: the name in the file, or "STL". */
   readonly name?: string;
-  /** Which axis of the file points up. STL does not say; nearly all of them come from CAD. Default `z`. */
+  /** The up axis of the file. STL does not define one; most files come from CAD programs. Default `z`. */
   readonly up?: 'y' | 'z';
   /** Metres a unit of the file; default 1. Parts in millimetres: 0.001. */
   readonly unit?: number;

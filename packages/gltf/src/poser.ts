@@ -84,8 +84,8 @@ class KeptAccessors {
 }
 
 /**
- * Poses a scene by the animations of its document, and says what differs from one pose to the next. Made by
- * {@link openAnimations}.
+ * Poses a scene by the animations of its document, and reports what changes from one pose to the next. Made by {@link
+ * openAnimations}.
  */
 export class ScenePoser {
   /** The document's animations, in its order, with the times of their last keys. */

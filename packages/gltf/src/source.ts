@@ -3,7 +3,7 @@ import { GltfError } from './error';
 /** Reads a file that a document names. `uri` is relative to the document, decoded. */
 export type ResourceReader = (uri: string, signal: AbortSignal | undefined) => Promise<Uint8Array<ArrayBuffer>>;
 
-/** Where a document and the files it names come from. */
+/** The source of a document and of the files it refers to. */
 export interface Source {
   /** Name of the document in messages. */
   readonly name: string;

@@ -5,7 +5,7 @@ type Viewer = NonNullable<GlanzViewerElement['viewer']>;
 /** Parameters of a material, as `Viewer.setMaterial` takes them. */
 export type MaterialEdit = Parameters<Viewer['setMaterial']>[1];
 
-/** What of a model is other than in its file. */
+/** Changes of a model relative to its file. */
 export interface DeclaredLook {
   /** Parameters by the names of materials. */
   readonly materials?: Readonly<Record<string, MaterialEdit>> | undefined;

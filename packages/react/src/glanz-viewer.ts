@@ -25,8 +25,9 @@ export interface GlanzViewerProps extends Partial<Omit<ReflectedProperties, 'src
   /** An address, a file, files, or a scene. */
   readonly src?: Source | null;
   /**
-   * Parameters of materials by their names, as `Viewer.setMaterial` takes them: `{ seat: { base_color: 'firebrick' } }`.
-   * What is left out again becomes what it is in the file. Errors come by `onError`, with the codes of `setMaterial`.
+   * Parameters of materials by their names, as `Viewer.setMaterial` takes them: `{ seat: { base_color: 'firebrick' }
+   * }`. Parameters that are removed return to the values of the file. Errors are reported by `onError`, with the codes
+   * of `setMaterial`.
    */
   readonly materials?: DeclaredLook['materials'] | null;
   /** Whether parts are shown, by their names: `{ lid: false }`. What is left out again is shown as in the file. */
@@ -80,8 +81,8 @@ const EVENTS = {
 } as const;
 
 /**
- * `<glanz-viewer>` as a component. On a server it is the bare tag with its children, the poster say; in the browser the
- * element's code is fetched when the first one is there. Its ref is the element, and so leads to the `Viewer`.
+ * `<glanz-viewer>` as a component. On a server it renders the tag with its children, such as the poster; in the browser
+ * the element's code is fetched when the first component is mounted. Its ref is the element, which has the `Viewer`.
  *
  * @example
  * <GlanzViewer src="chair.glb" alt="An oak chair" cameraControls className="chair" onConverged={({ samples }) =>

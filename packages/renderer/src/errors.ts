@@ -1,8 +1,10 @@
 import { GlanzError } from '@glanz/wgsl';
 
 /**
- * WebGPU is missing, refused, too small, or gone. Codes: `renderer/no-webgpu`, `renderer/no-adapter`,
- * `renderer/no-device`, `renderer/limit`, `renderer/out-of-memory`, `renderer/device-lost`, `renderer/gpu-error`.
+ * Thrown where WebGPU or its device cannot be used. Codes: `renderer/no-webgpu` (WebGPU is not available),
+ * `renderer/no-adapter` (there is no usable GPU), `renderer/no-device` (the adapter provides no device),
+ * `renderer/limit` (a limit of the device is too low), `renderer/out-of-memory`, `renderer/device-lost`,
+ * `renderer/gpu-error` (the GPU reports an error).
  */
 export class DeviceError extends GlanzError {}
 
@@ -14,9 +16,10 @@ export const deviceLost = ({ reason, message }: GPUDeviceLostInfo): DeviceError 
   );
 
 /**
- * The renderer was asked for something it cannot do. Codes: `renderer/size`, `renderer/samples`, `renderer/camera`,
- * `renderer/filter`, `renderer/light-groups`, `renderer/option`, `renderer/film-state`, `renderer/material`,
- * `renderer/instance`, `renderer/mesh`, `renderer/light`, `renderer/environment`, `renderer/transform`,
- * `renderer/variant`, `renderer/aov`, `renderer/shutter`, `renderer/destroyed`, `renderer/busy`, `renderer/no-triangles`.
+ * Thrown for scenes, options and calls that the renderer does not accept. Codes: `renderer/size`, `renderer/samples`,
+ * `renderer/camera`, `renderer/filter`, `renderer/light-groups`, `renderer/option`, `renderer/film-state`,
+ * `renderer/material`, `renderer/instance`, `renderer/mesh`, `renderer/light`, `renderer/environment`,
+ * `renderer/transform`, `renderer/variant`, `renderer/aov`, `renderer/shutter`, `renderer/destroyed`, `renderer/busy`,
+ * `renderer/no-triangles`.
  */
 export class RenderError extends GlanzError {}

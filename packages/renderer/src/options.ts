@@ -101,24 +101,22 @@ export interface PathTracerOptions {
    */
   readonly lightSampling?: 'tree' | 'power';
   /**
-   * What light does where a surface of few triangles has smooth normals and turns away from it, at the shadow
-   * terminator. `smooth` (default): rays start on the smooth surface that the normals stand for, and light that reaches
-   * this is not held back by the triangles. `faceted`: the triangles' horizons count; edges of the light follow them,
-   * and a little light is lost. Triangles whose normals lean more than 53° away, as at hard edges, and those without
-   * normals do not change. What lies closer to such a surface than it bulges between its corners casts no shadow on it
-   * there.
+   * The shadow terminator: light where a surface of few triangles has smooth normals and turns away from the light.
+   * `smooth` (default): rays start on the smooth surface that the normals stand for, and light that reaches this is not
+   * held back by the triangles. `faceted`: the triangles' horizons count; edges of the light follow them, and a little
+   * light is lost. Triangles whose normals lean more than 53° away, as at hard edges, and those without normals do not
+   * change. What lies closer to such a surface than it bulges between its corners casts no shadow on it there.
    */
   readonly shadowTerminator?: 'smooth' | 'faceted';
   /**
-   * Leaves out the faces that show the camera their back, where their material is not `double_sided`, as rasterisers
-   * do: one looks into a room from outside whose walls face inwards. `off` (default): all surfaces are there from both
-   * sides. `camera`: only what the camera sees itself changes, straight or through smooth thin walls; light, shadows
-   * and reflections find all faces where they are, so the walls still keep the sun out of the room, and a mirror
-   * outside shows them. `all`: the model is cut open for light too, which falls into the room where the camera looks
-   * in; turning the view cuts it elsewhere, and mirrors show the cut. What glows is not
-   * cut: it shines on, and only the camera looks through its back. Materials that let light through are never culled:
-   * those with transmission, subsurface, or opacity without a threshold. Front is where the winding is
-   * counter-clockwise, in mirroring instances clockwise.
+   * Culls faces that are seen from behind, where their material is not `double_sided`, as rasterisers do: a room whose
+   * walls face inwards is visible from outside. `off` (default): all surfaces are there from both sides. `camera`: only
+   * what the camera sees itself changes, straight or through smooth thin walls; light, shadows and reflections find all
+   * faces where they are, so the walls still keep the sun out of the room, and a mirror outside shows them. `all`: the
+   * model is cut open for light too, which falls into the room where the camera looks in; turning the view cuts it
+   * elsewhere, and mirrors show the cut. What glows is not cut: it shines on, and only the camera looks through its
+   * back. Materials that let light through are never culled: those with transmission, subsurface, or opacity without a
+   * threshold. Front is where the winding is counter-clockwise, in mirroring instances clockwise.
    */
   readonly backFaceCulling?: BackFaceCulling;
   /**
@@ -152,7 +150,7 @@ export interface PathTracerOptions {
   readonly onProgress?: (progress: PrepareProgress) => void;
   /**
    * Called once while the kernels compile, with a plain image of the scene: base colours under a light at the camera,
-   * without textures. Its small kernel is there long before the others; where those are there first, it is not called.
+   * without textures. Its small kernel compiles long before the others; if those are ready first, it is not called.
    */
   readonly onFirstLight?: (image: FirstLight) => void;
 }
@@ -250,7 +248,7 @@ export interface TracerDenoiser<Tracer, Result> {
 export interface FilmAov {
   /**
    * The pixels, row-major, top row first. It has the usages `STORAGE` and `COPY_SRC`. With a render scale below 1 only
-   * its beginning is in use. Replaced by `resize()`, and gone when the AOV is no longer requested.
+   * its beginning is in use. Replaced by `resize()`, and destroyed when the AOV is no longer requested.
    */
   readonly buffer: GPUBuffer;
   /** What the numbers are: f32, or u32 for ids. */
@@ -261,7 +259,7 @@ export interface FilmAov {
   readonly offset: number;
   /** How many numbers it has. */
   readonly channels: number;
-  /** Samples that it is made of: at most 64, and at most those of the film. */
+  /** Number of samples in it: at most 64, and at most those of the film. */
   readonly samples: number;
 }
 
@@ -287,7 +285,7 @@ export type PixelFilter =
   | 'blackman-harris'
   | { readonly type: 'box' | 'gaussian' | 'blackman-harris'; readonly radius?: number };
 
-/** How far {@link PathTracer.create} has come. */
+/** Progress of {@link PathTracer.create}. */
 export interface PrepareProgress {
   readonly stage: 'bvh' | 'upload' | 'compile';
   /** Share of the stage, 0..1. */
@@ -327,7 +325,7 @@ export interface RenderProgress {
   readonly elapsedMs: number;
   /**
    * Milliseconds until `targetSamples`, or until the `noise` target, at the present rate; `Infinity` before the first
-   * sample, or before noise was first looked at. Assumes that noise goes down as the root of the number of samples.
+   * sample, or before noise was first measured. Assumes that noise falls with the square root of the number of samples.
    */
   readonly remainingMs: number;
   /** Samples per pixel of the whole image. */
@@ -335,8 +333,7 @@ export interface RenderProgress {
   /** Share of the image that is being sampled, 0..1: below 1 only with a `noise` target. */
   readonly active: number;
   /**
-   * Noise of the whole image when it was last looked at, in the units of `RenderOptions.noise`; only with such a
-   * target.
+   * Noise of the whole image when it was last measured, in the units of `RenderOptions.noise`; only with such a target.
    */
   readonly noise?: number;
 }
@@ -353,8 +350,8 @@ export interface RenderStatistics {
   /** Time to write the kernels' text and hand it to the driver. */
   readonly textMs: number;
   /**
-   * Time from when the hierarchies were asked for until the last was there. Where other threads build them, the text is
-   * written meanwhile.
+   * Time from the request of the hierarchies until the last one is built. Where other threads build them, shaders are
+   * composed in this time.
    */
   readonly bvhMs: number;
   /** What was built where in that time: one entry for the CPU and one for the GPU, if they had any. */

@@ -159,8 +159,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Brings the variance of {@link beautyBuffer} up to date, for kernels that come after: vec4f per pixel as {@link read}
-   * gives the layer `variance`, infinity where it is not known.
+   * Updates the variance of {@link beautyBuffer}, for kernels that run after it: vec4f per pixel as {@link read} gives
+   * the layer `variance`, infinity where it is not known.
    *
    * @returns The tracer's own buffer, which the next call writes again; `resize()` frees it.
    * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`, `renderer/gpu-error`
@@ -181,8 +181,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * A first-hit AOV on the GPU, for kernels that come after: guides of a denoiser, compositing. It grows with the film's
-   * first 64 samples and begins again when the film does.
+   * A first-hit AOV on the GPU, for kernels that run after it: guides of a denoiser, compositing. It accumulates the
+   * film's first 64 samples and restarts with the film.
    *
    * @throws {RenderError} `renderer/aov` if it is not requested, or its kernels are not there yet.
    * @example
@@ -196,8 +196,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Requests other first-hit AOVs than before. The film goes on: kernels that record them are compiled, and the samples
-   * that it has get their AOVs by tracing their paths again as far as these need.
+   * Requests other first-hit AOVs than before. The film continues: kernels that record them are compiled, and the
+   * samples that it has get their AOVs by tracing their paths again as far as these need.
    *
    * @param aovs All that are requested from now on; none of them costs nothing.
    * @param options `signal` ends the wait: the promise rejects with its reason. An abort before the edit begins changes
@@ -252,9 +252,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Adds samples to the film until it has as many as asked for. Ends quietly when aborted by `signal` or when the film
-   * is restarted by an edit; the film keeps what it has. Should the GPU refuse a batch, the next `render()` begins
-   * again.
+   * Adds samples to the film until it has the requested number. Ends without an error when `signal` aborts or an edit
+   * restarts the film; the film keeps its samples. If the GPU rejects a batch, the next `render()` restarts the film.
    *
    * @throws {RenderError} `renderer/busy` while another `render()` of this tracer runs, `renderer/destroyed`,
    * `renderer/samples`
@@ -327,9 +326,10 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Dims or colours the light of a group in the image as it is: no new sample, the film goes on.
+   * Changes the intensity and colour of a light group in the existing image: no new samples are needed, and the film
+   * continues.
    *
-   * @param settings What is left out stays as it is. The intensity must be finite and at least 0, as must the colour.
+   * @param settings Omitted settings do not change. Intensity and colour must be finite and at least 0.
    * @returns When the image shows it.
    * @throws {RenderError} `renderer/light-groups` for an unknown group, a value out of range, or with
    * `lightGroups: 'off'`.
@@ -355,8 +355,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Copies what the film has accumulated, and where its sampling stands, to the CPU: to go on from there on another
-   * device, in another process, or after the tab was closed. Exact at any time, also while `render()` runs.
+   * Copies the accumulated film and the state of its sampling to the CPU, to continue on another device, in another
+   * process, or after the tab was closed. Exact at any time, also while `render()` runs.
    *
    * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`
    */
@@ -366,8 +366,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Puts a saved film in place of the tracer's. The next `render()` goes on from there; what comes out is bit for bit
-   * what it would have been without the interruption on the same kind of device. A running `render()` ends.
+   * Replaces the tracer's film by a saved one. The next `render()` continues from it; on the same kind of device the
+   * result is bit-identical to that without the interruption. A running `render()` ends.
    *
    * @param state Of a tracer with the same scene, camera and options, or merged from such. It is not changed and can be
    * used again. The film begins at the state's first sample from then on, see {@link reset}.
@@ -413,8 +413,8 @@ export class PathTracer extends TracerEdits {
   }
 
   /**
-   * Looks through another camera: one of the scene's by index or name, or any. Restarts the film. A camera of another
-   * kind (projection, with or without a lens) brings another small kernel; the old view stays until it is there.
+   * Sets the camera: one of the scene by index or name, or any other. Restarts the film. A camera of another kind
+   * (projection, with or without a lens) needs another small kernel; the former view is shown until it is compiled.
    *
    * @returns When the image shows it.
    * @throws {RenderError} `renderer/camera` if there is no such camera, or it is degenerate.
@@ -479,7 +479,7 @@ export class PathTracer extends TracerEdits {
    * Renders fewer pixels in the film's memory, for previews, and restarts the film. Takes effect at once: nothing is
    * allocated, unlike with {@link resize}.
    *
-   * @param scale Share of the width and height that the tracer was given, above 0 and at most 1.
+   * @param scale Factor of the tracer's width and height, above 0 and at most 1.
    * @throws {RenderError} `renderer/size` for a scale out of range, `renderer/destroyed`
    */
   setRenderScale(scale: number): void {

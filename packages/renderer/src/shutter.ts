@@ -29,7 +29,7 @@ export type ShutterTracer = Pick<PathTracer, 'accumulates' | 'render' | 'reset' 
 /** Options for {@link renderShutter}. */
 export interface ShutterOptions extends ShutterSettings, Pick<RenderOptions, 'signal' | 'maxSubmitMs'> {
   /**
-   * Brings the scene and the camera of the tracer to a time from 0 to 1, by the tracer's edits. Resolves when the image
+   * Poses the scene and the camera of the tracer at a time from 0 to 1, by the tracer's edits. Resolves when the image
    * shows them. Called with rising times, perhaps again from the first one.
    */
   readonly pose: (time: number) => void | Promise<void>;

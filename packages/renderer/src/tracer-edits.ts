@@ -3,8 +3,8 @@ import type { SceneChange } from './scene/scene-change';
 import type { SceneEditor } from './scene/scene-editor';
 
 /**
- * The edits that a `PathTracer` takes while it lives. Each changes the tracer's own scene, restarts the film and costs
- * what it touches.
+ * The edits of a `PathTracer`. Each changes the tracer's own scene and restarts the film; its cost depends on what it
+ * changes.
  *
  * An edit is made as a whole or not at all. Where the GPU refuses it (`renderer/out-of-memory`, `renderer/gpu-error`, a
  * shader that does not compile), the promise rejects, and scene, film and samples are what they were before; where that
@@ -15,8 +15,8 @@ export abstract class TracerEdits {
   protected abstract edit(prepare: (editor: SceneEditor) => SceneChange | Promise<SceneChange>): Promise<void>;
 
   /**
-   * Changes parameters of a material and restarts the film. Where the change calls for kernels that are not there yet
-   * (a lobe appears), the old ones serve until the new ones are ready.
+   * Changes parameters of a material and restarts the film. Where the change needs kernels that are not compiled yet (a
+   * new lobe), the old ones are used until the new ones are ready.
    *
    * @returns When the image shows the change in full.
    * @param parameters Names and values as `OPENPBR_PARAMETERS` of `@glanz/openpbr` has them.
@@ -64,8 +64,9 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. Costs what
-   * moves, however many other instances there are; light tables too, if it emits. Restarts the film.
+   * Moves the instances of a name, or the one of an index: object to world, 16 numbers, column-major. The cost depends
+   * on the instances that move, not on the number of others; emissive instances also update the light tables. Restarts
+   * the film.
    *
    * @throws {RenderError} `renderer/instance`, `renderer/transform`, `renderer/no-triangles` if nothing would be left
    * to see.
@@ -75,8 +76,8 @@ export abstract class TracerEdits {
   }
 
   /**
-   * Shows or hides the instances of a name, or the one of an index, or several of them at once. Costs what appears and
-   * disappears, and for meshes shown for the first time their hierarchies. Restarts the film.
+   * Shows or hides the instances of a name, or the one of an index, or several of them at once. The cost depends on the
+   * instances that change; meshes that are shown for the first time also need their hierarchies. Restarts the film.
    *
    * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see.
    */
@@ -86,7 +87,7 @@ export abstract class TracerEdits {
 
   /**
    * Makes the instances of a name, or the one of an index, catchers of shadows and reflections, or plain surfaces
-   * again; see `Instance.catcher`. The first one brings kernels that know catchers. Restarts the film.
+   * again; see `Instance.catcher`. The first catcher needs other kernels. Restarts the film.
    *
    * @throws {RenderError} `renderer/instance`
    */

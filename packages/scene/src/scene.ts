@@ -31,8 +31,8 @@ export interface Instance {
   /** Default true. An invisible instance casts no shadow either. */
   visible?: boolean;
   /**
-   * Shadow catcher, default false: stands for a surface in the backdrop's photograph, such as a table. The camera sees
-   * only the shadows and the light that the other instances cast on it.
+   * Shadow catcher, default false: represents a surface in the photograph behind the scene, such as a table. The camera
+   * sees only the shadows and the light that the other instances cast on it.
    */
   catcher?: boolean;
   /**
@@ -76,7 +76,7 @@ export interface Scene {
    * `openAnimations` of `@glanz/gltf/animation` needs to pose it.
    */
   animatedParts?: (readonly [node: number, primitive: number])[];
-  /** What the file says about itself (authors, generator, licence, XMP packets), passed through untouched. */
+  /** Metadata of the file (authors, generator, licence, XMP packets), unchanged. */
   metadata?: Readonly<Record<string, unknown>>;
   /** Faults that the loader worked around. */
   warnings: SceneWarning[];

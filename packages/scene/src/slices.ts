@@ -21,7 +21,7 @@ export interface SliceOptions {
   readonly sliceMs?: number;
 }
 
-/** Lets other tasks of the event loop run. Uses a timer, which costs milliseconds, only where nothing faster exists. */
+/** Yields to the event loop. Uses a timer, which costs milliseconds, only where there is no faster way. */
 export function yieldToEventLoop(): Promise<void> {
   const { scheduler, setImmediate } = globalThis as {
     scheduler?: { yield?: () => Promise<void> };

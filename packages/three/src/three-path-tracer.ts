@@ -48,7 +48,7 @@ const NOTHING: ThreeChanges = { camera: false, instances: 0, meshes: 0, material
 
 /**
  * Path-traces a live scene of three.js: {@link update} finds what has changed since the last call and changes only
- * that. Nothing of three.js is imported.
+ * that. It does not import three.js.
  *
  * | changed in three | costs |
  * |---|---|
@@ -239,7 +239,7 @@ export class ThreePathTracer {
   }
 
   /**
-   * The same for the camera alone, which compares nothing else.
+   * As {@link update}, for the camera only.
    *
    * @returns Whether it has moved, when the image shows it.
    * @throws {ThreeError} `three/camera`, `three/destroyed`; {RenderError} `renderer/camera`
@@ -394,7 +394,7 @@ export class ThreePathTracer {
    * Adds a sample to each pixel. Calls that overlap share one.
    *
    * @param options `samples`: how many, default 1. `maxSubmitMs`: see `RenderOptions`. `signal` ends it early.
-   * @returns Samples that the film has then; fewer than asked for where an edit has restarted it.
+   * @returns Samples that the film has then; fewer than requested where an edit has restarted it.
    * @throws {ThreeError} `three/destroyed`; {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`,
    * `renderer/gpu-error`
    */

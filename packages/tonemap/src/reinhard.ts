@@ -2,7 +2,7 @@ import { wgslModule } from '@glanz/wgsl/module';
 import { finite, mapRgb, tonemapFinite } from './finite';
 import type { Rgb } from './names';
 
-/** Luminance that {@link tonemapReinhard} brings to exactly 1: two stops above white. */
+/** Luminance that {@link tonemapReinhard} maps to exactly 1: two stops above white. */
 export const REINHARD_WHITE = 4;
 
 /**

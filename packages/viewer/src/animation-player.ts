@@ -47,8 +47,8 @@ export interface AnimatedModel {
 
 /**
  * The animations of a model that is shown. Frames are previews while one plays, as they are while the camera moves;
- * where it is paused or finished, the image of that pose is refined to its end. Time stands still while the viewer is
- * out of sight. Made by `Viewer.animation()`, for one model: after another `load()` it does nothing.
+ * where it is paused or finished, the image of that pose is refined to its end. Time does not advance while the viewer
+ * is not visible. Made by `Viewer.animation()`, for one model: after another `load()` it does nothing.
  */
 export class AnimationPlayer {
   readonly #model: AnimatedModel;
@@ -163,7 +163,7 @@ export class AnimationPlayer {
     this.#model.wake();
   }
 
-  /** @internal Advances by so many seconds. @returns Whether the model has another pose. */
+  /** @internal Advances by so many seconds. @returns Whether the pose has changed. */
   step(seconds: number): boolean {
     if (!this.#playing) return false;
     // The main thread may have been busy for longer than an animation should jump.

@@ -4,13 +4,13 @@ export interface CameraCommands {
   orbit(yaw: number, pitch: number): void;
   /** Heights of the image. */
   pan(right: number, up: number): void;
-  /** Factor, more than 1 comes nearer. */
+  /** Factor; above 1 moves closer. */
   zoom(factor: number): void;
   /** Back to the first view. */
   home(): void;
   /** A click or tap without a drag; CSS pixels from the element's upper left corner. */
   pick(x: number, y: number): void;
-  /** A double click, a double tap or the key F: look at what lies there; CSS pixels. */
+  /** A double click, a double tap or the key F: make the point there the target; CSS pixels. */
   focus(x: number, y: number): void;
 }
 
@@ -67,10 +67,10 @@ const distance = (a: Point, b: Point) => Math.hypot(a.x - b.x, a.y - b.y);
 
 /**
  * Pointer, touch, wheel and keyboard on an element: drag to orbit; Shift, middle or right button to pan; wheel to zoom;
- * two fingers pan and pinch; double click or F to look at what lies there; arrows orbit, Shift and arrows pan, + and −
- * zoom, 0 or Home returns; Enter picks the middle.
+ * two fingers pan and pinch; double click or F to make the point there the target; arrow keys orbit, Shift and arrow
+ * keys pan, + and − zoom, 0 or Home resets the view; Enter picks the centre.
  *
- * @returns What removes the listeners.
+ * @returns A function that removes the listeners.
  */
 export function controlCamera(
   element: HTMLElement,

@@ -2,16 +2,16 @@ import type { AovName, PathTracer } from '@glanz/renderer';
 import type { GlanzError } from '@glanz/scene';
 import type { GpuImage } from './display';
 
-/** Denoises the images of one viewer, on each of its devices in turn. Nothing here rejects but `still()`. */
+/** Denoises the images of one viewer, on its current device. Only `still()` can reject. */
 export interface DenoiseSession {
   /** What has made it. */
   readonly source: Denoising;
-  /** The AOVs that tracers need. @param requested Those that are requested anyway. */
+  /** The AOVs that tracers need. @param requested AOVs that are requested by other options. */
   aovs(requested?: readonly AovName[]): readonly AovName[];
   /**
-   * Denoises what a tracer has rendered, if it is time to.
+   * Denoises the film of a tracer, if the next image is due.
    *
-   * @param last Whether no more samples are to come: what the film has is denoised in any case.
+   * @param last Whether these are the last samples: then the film is denoised in any case.
    * @returns Whether there is another image to show.
    */
   offer(tracer: PathTracer, signal: AbortSignal, last?: boolean): Promise<boolean>;
@@ -24,7 +24,7 @@ export interface DenoiseSession {
    * @throws the signal's reason, when aborted.
    */
   still(tracer: PathTracer, signal: AbortSignal): Promise<Float32Array | undefined>;
-  /** A PNG file whose metadata say that the image is denoised. */
+  /** A copy of the PNG file with metadata that say that the image is denoised. */
   mark(png: Blob): Promise<Blob>;
   destroy(): void;
 }

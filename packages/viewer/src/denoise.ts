@@ -45,7 +45,8 @@ const PASSING: ReadonlySet<unknown> = new Set(['denoise/device', 'denoise/destro
 
 /**
  * Denoises the images of a viewer while they have few samples: the first one, then each time that the samples have
- * doubled, and the finished one. Beyond the first, a quarter of the time is spent on it at most. The film is only read.
+ * doubled, and the finished one. After the first image, denoising takes at most a quarter of the time. The film is not
+ * changed.
  *
  * @param create Makes the denoiser of a device; called again after a loss. Where it or the denoiser rejects, the images
  * are shown with their noise, and the `warning` event says why, once (`viewer/denoise`; `error.cause` is the reason).

@@ -7,7 +7,7 @@ import type { PreviewMode } from './preview';
 
 /** What an `Engine` requests from its application, and reports to it. */
 export interface EngineHost {
-  /** Advances the camera by so many seconds; returns whether it has moved. */
+  /** Advances the camera by a time in seconds; returns whether it has moved. */
   readonly step: (seconds: number) => boolean;
   /** Whether the camera is on its way, or about to be. */
   readonly moving: () => boolean;
@@ -16,21 +16,23 @@ export interface EngineHost {
   readonly state: (state: ViewerState) => void;
   /** The image has more samples; those of previews are not reported. `denoised`: whether what is shown is denoised. */
   readonly sample: (progress: RenderProgress, denoised: boolean) => void;
-  /** The image has all it was asked for, so many milliseconds after the last change. */
+  /** The image has all requested samples; `milliseconds` since the last change. */
   readonly converged: (samples: number, milliseconds: number) => void;
   /**
-   * An image has gone to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels,
+   * An image was drawn to the canvas: a preview or not, the milliseconds that its samples took, its size in pixels,
    * denoised (or filtered over time) or not.
    */
   readonly drawn: (preview: boolean, milliseconds: number, size: readonly [number, number], denoised: boolean) => void;
   /** The film was cleared: what it shows from now on is another image. */
   readonly restarted?: () => void;
   readonly error: (error: unknown, retry?: () => void) => void;
-  /** The first device has not come; it is asked for again for about two seconds before {@link Engine.ready} rejects. */
+  /**
+   * The first request for a device failed; it is repeated for about two seconds before {@link Engine.ready} rejects.
+   */
   readonly missing?: (error: unknown) => void;
-  /** The device was lost; another one is asked for. */
+  /** The device was lost; another one is requested. */
   readonly lost: (reason: string) => void;
-  /** There is another device, and the scene is back, so many milliseconds after the loss. */
+  /** The scene is restored on another device; `milliseconds` since the loss. */
   readonly restored: (milliseconds: number, samples: RestoredSamples) => void;
 }
 
@@ -43,17 +45,17 @@ export interface RestoredSamples {
 }
 
 /**
- * How an `Engine` works. Fields that are not read-only may change at any time; what needs an edit or a restart with it
- * says so.
+ * Settings of an `Engine`. Fields that are not read-only may change at any time; some need an edit or a restart, as
+ * their documentation says.
  */
 export interface EngineSettings extends ToneMapOptions {
-  /** Samples per pixel of the finished image. With a change goes `restart()`. */
+  /** Samples per pixel of the finished image. After a change, call `restart()`. */
   samples: number;
-  /** Stop where this relative noise is reached. With a change goes `restart()`. */
+  /** Stop where this relative noise is reached. After a change, call `restart()`. */
   noise: number | undefined;
-  /** Maximum number of edges of a path. With a change goes `touch()`. */
+  /** Maximum number of edges of a path. After a change, call `touch()`. */
   maxDepth: number;
-  /** What is behind the model. With a change goes an edit by `PathTracer.setBackground()`. */
+  /** What is behind the model. After a change, call `PathTracer.setBackground()` as an edit. */
   background: 'environment' | 'transparent';
   /** GPU milliseconds that one submission should take at most while the image is refined. */
   maxSubmitMs: number;
@@ -72,7 +74,10 @@ export interface EngineSettings extends ToneMapOptions {
    * time.
    */
   keepSamples?: boolean | undefined;
-  /** Denoises images. The engine destroys it with itself. With a change goes `restart()`, and its `destroy()`. */
+  /**
+   * Denoises images. The engine destroys it with itself. After a change, call `restart()`, and `destroy()` of the
+   * former one.
+   */
   denoise?: DenoiseSession | undefined;
   /** Whether the first device warms up until there is a scene. Default: unless the adapter is software. */
   readonly warmUp?: boolean | undefined;

@@ -26,8 +26,9 @@ export interface ShowOptions {
 }
 
 /**
- * Device, tracer and canvas: prepares scenes, renders them in a loop (a small preview while something moves, the image
- * when it rests, nothing when it is done or out of sight), and continues after the device was lost.
+ * Device, tracer and canvas: prepares scenes, renders them in a loop (a low-resolution preview while something moves,
+ * the full image when it does not, and no samples when it is done or not visible), and continues after the device was
+ * lost.
  */
 export class Engine {
   readonly settings: EngineSettings;
@@ -158,8 +159,7 @@ export class Engine {
   }
 
   /**
-   * Makes sure that there is a device: one that could not be had before, or that was lost too often, is asked for
-   * again.
+   * Ensures that there is a device: requests one again where an earlier request failed, or where it was lost too often.
    * @throws {DeviceError} {ViewerError} `viewer/device-lost`, `viewer/destroyed`.
    */
   connect(): Promise<void> {
@@ -167,10 +167,10 @@ export class Engine {
   }
 
   /**
-   * Shows another scene. Until it is ready, and where this fails, the former one stays.
+   * Shows another scene. Until it is ready, and where this fails, the former scene is shown.
    *
-   * @param source Asked whenever a tracer is made: now without one, and after a loss of the device with the one that
-   * was lost.
+   * @param source Called whenever a tracer is created: first without an argument, and after a loss of the device with
+   * the tracer that was lost.
    * @throws {DeviceError} {RenderError} {SceneError} of the renderer; {ViewerError} `viewer/destroyed`,
    * `viewer/device-lost`.
    * @throws an `AbortError` where another scene is asked for meanwhile, and the signal's reason.
@@ -202,7 +202,7 @@ export class Engine {
     return applied;
   }
 
-  /** The camera, or what it looks at, has changed: the preview takes over for a while. */
+  /** Reports that the camera or the scene has changed: the preview is shown for a while. */
   touch(): void {
     this.#loop.touch();
   }

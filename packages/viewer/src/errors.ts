@@ -1,9 +1,12 @@
 import { GlanzError } from '@glanz/scene';
 
 /**
- * The viewer was asked for something it cannot do. Codes: `viewer/no-canvas`, `viewer/destroyed`, `viewer/no-scene`,
- * `viewer/no-model`, `viewer/environment`, `viewer/camera`, `viewer/option`, `viewer/blob`, `viewer/device-lost`,
- * `viewer/gpu`, `viewer/out-of-memory`, `viewer/denoise`, `viewer/animation`, `viewer/video`, `viewer/missing-package`.
+ * Thrown by the viewer. Codes: `viewer/no-canvas` (not a canvas, or one with a context of another kind),
+ * `viewer/destroyed`, `viewer/no-scene` (nothing is loaded yet), `viewer/no-model` (the model cannot be read),
+ * `viewer/environment` (the environment cannot be read), `viewer/camera`, `viewer/option` (a value out of its range),
+ * `viewer/blob` (the browser cannot write the image), `viewer/device-lost`, `viewer/gpu` (the GPU reports an error),
+ * `viewer/out-of-memory`, `viewer/denoise`, `viewer/animation`, `viewer/video` (the browser cannot encode the video),
+ * `viewer/missing-package`.
  */
 export class ViewerError extends GlanzError {}
 

@@ -3,9 +3,9 @@ import type { Camera, GlanzError, Scene } from '@glanz/scene';
 import type { Orbit } from './orbit-state';
 
 /**
- * What a viewer is doing. `empty`: nothing to show. `loading`: a model is read or prepared. `moving`: the preview is
- * shown. `rendering`: samples are added. `done`: the image has all it was asked for. `paused`, `hidden` (out of
- * sight: nothing runs), `recovering` (the GPU was lost and is asked for again), `failed` (see the `error` event),
+ * State of a viewer. `empty`: no scene. `loading`: a model is loaded or prepared. `moving`: the preview is shown.
+ * `rendering`: samples are added. `done`: the image has all requested samples. `paused`; `hidden`: not visible,
+ * rendering is suspended; `recovering`: the GPU was lost and a device is requested; `failed`: see the `error` event;
  * `destroyed`.
  */
 export type ViewerState =
@@ -30,15 +30,15 @@ export interface ViewerEvents {
   /** A load progresses. `done`: share of the stage; `total`: estimated share of the whole; both 0..1. */
   progress: { readonly stage: LoadStage; readonly done: number; readonly total: number };
   /**
-   * Something failed. `code` is that of a `GlanzError`, or `unexpected`. `retry` is there where trying again makes
-   * sense.
+   * An operation failed. `code` is that of a `GlanzError`, or `unexpected`. `retry` is defined where another attempt
+   * may succeed.
    */
   error: { readonly error: unknown; readonly message: string; readonly code: string; readonly retry?: () => void };
   /**
-   * The viewer works around something: an environment cannot be fetched or read, and a studio lights the model
+   * The viewer continues with a fallback: an environment cannot be fetched or read, and a studio lights the model
    * (`viewer/environment`; `error.cause` is what went wrong); the image cannot be denoised and is shown with its noise
-   * (`viewer/denoise`, likewise); or there is no GPU (`renderer/no-adapter`,
-   * `renderer/no-device`), and the viewer asks for it again for about two seconds before `load()` fails.
+   * (`viewer/denoise`, likewise); or there is no GPU (`renderer/no-adapter`, `renderer/no-device`), and the viewer asks
+   * for it again for about two seconds before `load()` fails.
    */
   warning: { readonly error: GlanzError; readonly message: string; readonly code: string };
   /**
@@ -52,14 +52,14 @@ export interface ViewerEvents {
     readonly remainingMs: number;
     readonly denoised: boolean;
   };
-  /** The image has all samples, or is as free of noise as asked for. */
+  /** The image has all samples, or has reached the noise target. */
   converged: {
     readonly samples: number;
     /** Since the view or the scene last changed. */ readonly milliseconds: number;
   };
   /** The view has moved. `source`: by the user, by a call, or by `autoRotate`. */
   'camera-change': { readonly camera: Camera; readonly orbit: Orbit; readonly source: CameraChangeSource };
-  /** The GPU went away; the viewer asks for it again by itself. */
+  /** The GPU was lost; the viewer requests a new device. */
   'device-lost': { readonly reason: string };
   /**
    * There is a GPU again, and the scene is back as it was edited. `samples`: samples per pixel that were kept and are
@@ -69,8 +69,8 @@ export interface ViewerEvents {
   /** The state has changed. */
   state: { readonly state: ViewerState };
   /**
-   * An image has gone to the canvas. `preview`: a small one of a view that moves; `milliseconds`: what it took to
-   * make; `denoised`: the film is shown denoised.
+   * An image was drawn to the canvas. `preview`: a low-resolution image of a moving view; `milliseconds`: the time that
+   * its samples took; `denoised`: the film is shown denoised.
    */
   frame: {
     readonly preview: boolean;

@@ -3,7 +3,7 @@ import type { Camera } from '@glanz/scene';
 /** Width over height that a camera without an aspect ratio is assumed to have. */
 const USUAL_ASPECT = 4 / 3;
 
-/** The camera as it fits an image of another aspect ratio: nothing of the view is cut off. */
+/** The camera as it fits an image of another aspect ratio: no part of the view is cropped. */
 export function fitCamera(camera: Camera, aspect: number): Camera {
   if (camera.type === 'panorama') return camera;
   if (camera.type === 'orthographic') {

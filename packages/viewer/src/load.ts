@@ -23,7 +23,7 @@ export interface LoadModelOptions {
   readonly signal?: AbortSignal | undefined;
   readonly onProgress?: ((progress: GltfProgress) => void) | undefined;
   /**
-   * Decoders of compressed meshes and images. meshopt is there by itself. A file that needs one of these is read on
+   * Decoders of compressed meshes and images. That of meshopt is included. A file that needs one of these is read on
    * the calling thread; `createWorker` keeps it off.
    */
   readonly decoders?: GltfDecoders | undefined;

@@ -51,8 +51,8 @@ export interface ViewerOptions {
   /** Maximum number of pixels of the image; beyond, it is enlarged. Default 4,194,304. */
   readonly maxPixels?: number;
   /**
-   * Environment. Default `scene`: the model's own, or else a studio. Changed by `setEnvironment()`. Where it cannot be
-   * fetched or read, a studio lights the model, and the `warning` event says why.
+   * Environment. Default `scene`: that of the model, or else a studio. Changed by `setEnvironment()`. Where it cannot
+   * be fetched or read, a studio lights the model, and the `warning` event says why.
    */
   readonly environment?: EnvironmentSource;
   /** Multiplies the environment. Default 1. Changeable. */
@@ -82,9 +82,12 @@ export interface ViewerOptions {
   readonly orbitLimits?: OrbitLimits;
   /** Controls on the canvas: all, none, or some. Default true. Changeable. */
   readonly controls?: boolean | ControlOptions;
-  /** Seconds in which 63 % of a movement is done. Default 0.06; 0 where the user asks for less motion. */
+  /**
+   * Time constant of movements, in seconds: after this time 63 % of a movement is done. Default 0.06; 0 where the user
+   * prefers reduced motion.
+   */
   readonly damping?: number;
-  /** Radians a second that the view turns around the model by itself. Default 0. Changeable. */
+  /** Speed at which the camera orbits without input, radians per second. Default 0. Changeable. */
   readonly autoRotate?: number;
   /** Seconds after the last other movement before it does. Default 3. Changeable. */
   readonly autoRotateDelay?: number;
@@ -110,14 +113,11 @@ export interface ViewerOptions {
    * `same-origin`. Changeable.
    */
   readonly credentials?: RequestCredentials | undefined;
-  /** Decoders of compressed meshes and images; meshopt is there by itself. */
+  /** Decoders of compressed meshes and images; that of meshopt is included. */
   readonly decoders?: GltfDecoders;
   /** Starts the worker that reads glTF, see `LoadModelOptions.createWorker`. */
   readonly createWorker?: () => Worker;
-  /**
-   * Asks for the device, also again after it was lost. Default: `requestDevice()` of the renderer. The viewer destroys
-   * it.
-   */
+  /** Requests the device, again after a loss. Default: `requestDevice()` of the renderer. The viewer destroys it. */
   readonly requestDevice?: () => Promise<GPUDevice>;
   /**
    * Whether copies of the image's samples are kept in CPU memory, so that the image continues from them when the GPU

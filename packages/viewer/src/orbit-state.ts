@@ -1,7 +1,7 @@
 /** Three numbers in the world, metres. */
 export type Vector = readonly [number, number, number];
 
-/** Where a camera stands around a point, +Y up. */
+/** Position of a camera around a point, +Y up. */
 export interface Orbit {
   /** Azimuth around the target, radians: 0 looks from +Z, π/2 from +X. */
   readonly theta: number;
@@ -9,7 +9,7 @@ export interface Orbit {
   readonly phi: number;
   /** Metres from the target. */
   readonly radius: number;
-  /** What the camera turns about and looks at, metres. */
+  /** The point that the camera orbits and looks at, metres. */
   readonly target: Vector;
   /** Magnification of a parallel projection over that of its camera; `undefined` for others. */
   readonly zoom?: number | undefined;

@@ -59,7 +59,7 @@ export class OrbitRig {
   #limits: OrbitLimits;
 
   /**
-   * @param bounds Of the scene: the point to turn about lies beside its centre, and steps suit its size.
+   * @param bounds Bounds of the scene: the target is chosen near its centre, and steps are relative to its size.
    * @throws {ViewerError} `viewer/camera` for a camera or limits that nothing can be seen with; `viewer/option` for the
    * damping.
    */
@@ -89,8 +89,8 @@ export class OrbitRig {
   }
 
   /**
-   * How far the camera may go; what is beyond comes back. Setting it throws {ViewerError} `viewer/camera` for what is
-   * no range.
+   * Limits of the camera; a camera beyond them moves back. Setting it throws {ViewerError} `viewer/camera` for an
+   * invalid range.
    */
   get limits(): OrbitLimits {
     return this.#limits;
@@ -140,7 +140,7 @@ export class OrbitRig {
 
   /**
    * Moves sideways and up, in heights of the image at the target's distance.
-   * @throws {ViewerError} `viewer/camera` for what is not finite, or goes too far away.
+   * @throws {ViewerError} `viewer/camera` for values that are not finite, or move too far.
    */
   pan(right: number, up: number): void {
     checkedAmount(right, 'right');
@@ -157,7 +157,7 @@ export class OrbitRig {
   }
 
   /**
-   * Comes nearer by a factor: 2 halves the distance.
+   * Moves closer by a factor: 2 halves the distance.
    * @throws {ViewerError} `viewer/camera` unless the factor is a number from 1e-6 to 1e6.
    */
   zoom(factor: number): void {
@@ -168,11 +168,11 @@ export class OrbitRig {
   }
 
   /**
-   * Goes to an orbit; what is left out stays, but for the zoom, which goes with the radius. `phi` stops half a degree
-   * short of the poles.
+   * Moves to an orbit; omitted fields do not change, except the zoom, which follows the radius. `phi` stops half a
+   * degree short of the poles.
    *
    * @throws {ViewerError} `viewer/camera` for NaN, infinities, other types, a radius or zoom that is not above 0, and
-   * numbers beyond all sense. Nothing has changed then.
+   * numbers beyond the limits of the controls. The view does not change then.
    */
   setOrbit(orbit: Partial<Orbit>): void {
     const { theta, phi, radius, target, zoom } = checkedOrbit(orbit);
@@ -193,7 +193,7 @@ export class OrbitRig {
   }
 
   /**
-   * Looks at a point from the same side, as far away as before.
+   * Makes a point the target, from the same direction and distance.
    * @throws {ViewerError} `viewer/camera` unless it is three finite numbers.
    */
   focus(target: Vector): void {
@@ -201,8 +201,8 @@ export class OrbitRig {
   }
 
   /**
-   * Goes to where a camera stands. Its lens and projection are taken at once.
-   * @throws {ViewerError} `viewer/camera` for a camera that nothing can be seen with. Nothing has changed then.
+   * Moves to a camera. Its lens and projection apply at once.
+   * @throws {ViewerError} `viewer/camera` for an invalid camera. The view does not change then.
    */
   setCamera(camera: Camera): void {
     this.#lens = checkedCamera(camera);
@@ -213,7 +213,7 @@ export class OrbitRig {
 
   /**
    * Vertical field of view of a perspective camera, radians in (0, π); `undefined` for others, where setting it changes
-   * nothing. Setting it throws {ViewerError} `viewer/camera` for what is no such angle.
+   * nothing. Setting it throws {ViewerError} `viewer/camera` for other values.
    */
   get yfov(): number | undefined {
     return this.#lens.type === 'perspective' ? this.#lens.yfov : undefined;
@@ -265,9 +265,8 @@ export class OrbitRig {
   }
 
   /**
-   * The camera to render with, where it is now. While it stands where a camera was given, it is that camera, to the
-   * last bit: a roll, a focus beside the target and straight up and down are for looking, and go with the first
-   * movement.
+   * The camera to render with, where it is now. Until the first movement after `setCamera()` it is exactly that camera,
+   * with its roll, its focus and a vertical view; the first movement removes these.
    */
   camera(): Camera {
     const pose = this.#now;

@@ -1,7 +1,7 @@
 import { CostModel } from '@glanz/renderer';
 
 /**
- * What is shown while something moves.
+ * Image while the view or the scene moves.
  *
  * - `raw`: the film's samples as they are, in as many pixels as keep the frame rate.
  * - `filtered`: the same with the frames before it, reprojected, and filtered in space: nearly without noise, and

@@ -2,7 +2,7 @@ import type { PathTracer } from '@glanz/renderer';
 import type { Engine } from './engine';
 import type { ViewerError } from './errors';
 
-/** How far the rendering of an image has come. */
+/** Progress of the rendering of an image. */
 export interface ImageProgress {
   /** Samples per pixel so far. */
   readonly samples: number;

@@ -33,8 +33,8 @@ function checkArguments(canvas: HTMLCanvasElement, options: ViewerOptions): void
 }
 
 /**
- * A path-traced image on a canvas: loads models, turns them by pointer and keys, refines the image when they
- * rest, sleeps out of sight, and survives the loss of the GPU. Made by {@link createViewer}.
+ * A path-traced image on a canvas: loads models, moves the camera by pointer and keys, refines the image while the view
+ * does not move, suspends while not visible, and recovers from a loss of the GPU. Made by {@link createViewer}.
  *
  * Its properties can be set at any time. Setting one to a value that it cannot have (NaN, an infinity, another type, a
  * number outside of its range) throws a {@link ViewerError} `viewer/option` and changes nothing.
@@ -99,7 +99,7 @@ export class Viewer {
     return this.#engine.state;
   }
 
-  /** The scene as it has been edited; `undefined` before the first one is there. Read only. */
+  /** The scene as it has been edited; `undefined` before the first one is loaded. Read only. */
   get scene(): Scene | undefined {
     return this.tracer?.scene;
   }
@@ -123,9 +123,9 @@ export class Viewer {
   }
 
   /**
-   * Loads a model and shows it. Until it is ready the former one stays, and it stays where this fails. A load that
-   * comes later aborts this one. An environment that cannot be fetched or read does not fail the load: the studio
-   * lights the model, and the `warning` event says why.
+   * Loads a model and shows it. Until it is ready, and where this fails, the former model is shown. A later load aborts
+   * this one. An environment that cannot be fetched or read does not fail the load: the studio lights the model, and
+   * the `warning` event says why.
    *
    * @returns The scene as it was loaded.
    * @throws {GltfError} {FormatError} for files that cannot be read; {ViewerError} `viewer/no-model`,
@@ -160,8 +160,9 @@ export class Viewer {
   }
 
   /**
-   * What plays the model's animations, which `scene.animations` lists: fetched with the first call, and another one for
-   * each model. Frames are previews while one plays; where it rests, the image of that pose is refined to its end.
+   * The player of the model's animations, which `scene.animations` lists. Its code is fetched at the first call; each
+   * model has its own player. Frames are previews while one plays; where it rests, the image of that pose is refined to
+   * its end.
    *
    * @throws {ViewerError} `viewer/animation` where there is no model with animations; {GltfError} where the file cannot
    * be read again; an `AbortError` where another model was shown meanwhile.
@@ -178,7 +179,7 @@ export class Viewer {
   /**
    * Changes parameters of a material; see `PathTracer.setMaterial`. Several calls before the next frame add up. Colours
    * are linear Rec.709, or CSS colours as text, which are converted from sRGB: a name, `#rgb`, `#rrggbb`, `rgb()` or
-   * `hsl()`. Of a call that is refused nothing is stored.
+   * `hsl()`. A call that throws changes nothing.
    * @returns When the image shows it.
    * @throws {RenderError} `renderer/material`; {ToneMapError} `tonemap/color` for what is not a CSS colour; {ViewerError}
    * `viewer/no-scene`.
@@ -190,10 +191,10 @@ export class Viewer {
   }
 
   /**
-   * Shows or hides the parts of a name, or the one of an index in `scene.instances`. Of several calls for one part
-   * before the next frame the last one counts.
+   * Shows or hides all parts with a name, or the part with an index in `scene.instances`. Of several calls for one part
+   * before the next frame, the last one applies.
    * @returns When the image shows it.
-   * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if nothing would be left to see; {ViewerError}
+   * @throws {RenderError} `renderer/instance`, `renderer/no-triangles` if no part would be visible; {ViewerError}
    * `viewer/no-scene`.
    */
   setVisibility(nameOrIndex: string | number, visible: boolean): Promise<void> {
@@ -231,8 +232,8 @@ export class Viewer {
   }
 
   /**
-   * The image as a file, at the screen's size or any other, with the viewer's target samples unless others are asked
-   * for. Where the image on the screen is or will be the one that is asked for, it is used; otherwise the scene and the
+   * The image as a file, at the screen's size or any other, with the viewer's target samples unless others are
+   * requested. Where the image on the screen is or will be the requested one, it is used; otherwise the scene and the
    * view at the time of the call are rendered separately, on a path tracer of their own, and the screen's image keeps
    * its samples.
    *
@@ -473,29 +474,29 @@ export class Viewer {
   }
 
   /**
-   * Goes to where a camera stands, smoothly unless `immediate`. The user turns about what lies ahead of it.
-   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a camera that the scene does not have, or that nothing
-   * can be seen with. The view stays as it was then.
+   * Moves to a camera, smoothly unless `immediate`. The target of the controls is the point in front of it.
+   * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a camera that the scene does not have, or that is not
+   * valid. The view does not change then.
    */
   setCamera(camera: Camera | number | string, options?: { readonly immediate?: boolean }): void {
     this.#camera.setCamera(camera, options);
   }
 
-  /** Where the camera goes around what it looks at. `undefined` before there is a scene. */
+  /** The orbit of the camera around its target. `undefined` before a scene is loaded. */
   get orbit(): Orbit | undefined {
     return this.#camera.orbit;
   }
 
   /**
-   * Goes to an orbit, smoothly unless `immediate`; what is left out stays as it is.
+   * Moves to an orbit, smoothly unless `immediate`; omitted fields do not change.
    * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for NaN, infinities, other types, and a radius that is not
-   * above 0. The view stays as it was then.
+   * above 0. The view does not change then.
    */
   setOrbit(orbit: Partial<Orbit>, options?: { readonly immediate?: boolean }): void {
     this.#camera.setOrbit(orbit, options);
   }
 
-  /** Vertical field of view, radians; `undefined` for cameras that have none, and before there is a scene. */
+  /** Vertical field of view, radians; `undefined` for cameras without one, and before a scene is loaded. */
   get fieldOfView(): number | undefined {
     return this.#camera.fieldOfView;
   }
@@ -505,7 +506,7 @@ export class Viewer {
   }
 
   /**
-   * Frames the whole model, from where the camera looks or from a direction (from the model towards the camera).
+   * Frames the whole model, from the camera's direction or from another one (from the model towards the camera).
    * @throws {ViewerError} `viewer/no-scene`; `viewer/camera` for a direction without length or of other than finite
    * numbers.
    */
@@ -518,7 +519,10 @@ export class Viewer {
     this.#camera.home(options);
   }
 
-  /** Looks at what lies under a point of the canvas; CSS pixels. @returns What lies there. @throws as {@link pick}. */
+  /**
+   * Makes the surface at a point of the canvas the camera's target; CSS pixels. @returns The surface there. @throws as
+   * {@link pick}.
+   */
   focus(x: number, y: number): PickResult | undefined {
     return this.#camera.focus(x, y);
   }
@@ -571,9 +575,10 @@ export class Viewer {
 }
 
 /**
- * Makes a canvas show path-traced models. Returns at once; the GPU is asked for meanwhile, and `load()` waits for it.
+ * Creates a viewer, which shows path-traced models on a canvas. Returns at once: the GPU is requested asynchronously,
+ * and `load()` waits for it.
  *
- * @param canvas One that has no context yet, or had a viewer before. Its size is that of its CSS box.
+ * @param canvas A canvas without a context, or one that had a viewer before. Its size is that of its CSS box.
  * @throws {ViewerError} `viewer/option` for options out of their ranges, `viewer/no-canvas` for what is no canvas;
  * through `load()`: `viewer/no-canvas` for one that has another context. {ToneMapError} `tonemap/unknown`.
  * {DeviceError} through `load()`: `renderer/no-webgpu`, …

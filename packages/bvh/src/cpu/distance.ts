@@ -296,7 +296,7 @@ export function closestPointInstances(
 
 /** Output of a batch of point queries. Arrays may be longer than needed. */
 export interface DistanceBatch {
-  /** Infinity where nothing is nearer than `maxDistance`. */
+  /** Infinity where no triangle is nearer than `maxDistance`. */
   readonly distance: Float32Array | Float64Array;
   /** Triangle of the mesh; −1 for none. */
   readonly triangle?: Int32Array;

@@ -32,7 +32,7 @@ export {
   type Region,
 } from './regions';
 
-/** Called with a triangle that overlaps; true ends the query. `instance` is 0 where there are none. */
+/** Called with a triangle that overlaps; true ends the query. `instance` is 0 for a single level. */
 export type OverlapVisitor = (triangle: number, instance: number) => boolean | void;
 
 /**
@@ -301,7 +301,8 @@ export interface OverlapBatch {
  * The triangles in each of many regions of one kind, written one region after the other into the caller's arrays:
  * nothing is allocated per region.
  *
- * @param region Takes each region's numbers in turn, e.g. `new BoxRegion()`; left as the last one.
+ * @param region Set to the numbers of each region in turn, e.g. `new BoxRegion()`; it has those of the last one
+ * afterwards.
  * @param values `region.numbers` numbers a region: 6 a box (min, max), 4 a sphere (center, radius), 4 a plane.
  * @returns How many triangles there are: where that is more than `out.triangle` holds, call again with longer arrays.
  * @throws {BvhError} `bvh/batch` for arrays of a wrong length.

@@ -11,8 +11,8 @@ export const ACROSS = 1;
 export const INSIDE = 2;
 
 /**
- * A part of space that triangles may lie in. Borders belong to it. Write your own for other shapes; where `box` says
- * {@link OUTSIDE} no triangle in the box is tested, where it says {@link INSIDE} all count as overlapping.
+ * A closed region of space to test triangles against. Implement it for other shapes. Where `box` returns {@link
+ * OUTSIDE}, no triangle in the box is tested; where it returns {@link INSIDE}, all of them overlap.
  */
 export interface Region {
   /** {@link OUTSIDE}, {@link ACROSS} (also: unknown) or {@link INSIDE}. */

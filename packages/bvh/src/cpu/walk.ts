@@ -16,15 +16,15 @@ import type { Tlas } from '../tlas';
 import { intersectTriangle, prepareRay, RAY_NUMBERS } from './triangle';
 import { wordsOf } from './words';
 
-/** What an instance is made of. */
+/** Mesh and hierarchy of an instance. */
 export interface BlasMesh {
   readonly blas: Blas;
   readonly mesh: TriangleMesh;
 }
 
 /**
- * Called with the numbers of a hit, so that nothing is allocated; true ends the traversal. `instance` is 0 where there
- * are none.
+ * Called with the numbers of a hit, so that nothing is allocated; true ends the traversal. `instance` is 0 for a single
+ * level.
  */
 export type HitVisitor = (t: number, u: number, v: number, triangle: number, instance: number) => boolean | void;
 
@@ -45,8 +45,8 @@ function enter(nodes: Float32Array, low: number, ray: Float64Array, tMin: number
 }
 
 /**
- * The traversal of one level or two by a ray, nearer boxes first. Made once, it serves any number of rays one after the
- * other and allocates nothing.
+ * The traversal of one level or two by a ray, nearer boxes first. One object serves any number of rays in sequence and
+ * allocates no memory.
  */
 export class RayWalk {
   /** The end of the ray; of the last hit, once there is one. */

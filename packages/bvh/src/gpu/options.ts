@@ -52,7 +52,7 @@ export interface GpuTree {
   /** `bvhNodeStruct` of `@glanz/bvh/wgsl`, 64 bytes a node; parents before their children. Node 0 is the root. */
   readonly nodes: GPUBuffer;
   readonly nodeCount: number;
-  /** Box of everything; min > max if there is nothing. */
+  /** Bounding box of all instances; min > max if there are none. */
   readonly bounds: Aabb;
   /** As `bvhStatistics` of `@glanz/bvh/statistics` defines it, in single precision. */
   readonly sahCost: number;

@@ -110,7 +110,7 @@ export function checkPlan(device: GPUDevice, plan: BuildPlan, what: string, othe
 }
 
 /**
- * Bytes of temporary memory on the GPU that a build over so many triangles or boxes allocates: about 225 each. The
- * largest binding has 64 each, so that a device with WebGPU's default limits builds over 2 million.
+ * Bytes of temporary GPU memory that a build over `count` triangles or boxes allocates: about 225 each. The largest
+ * binding has 64 each, so that a device with WebGPU's default limits builds over 2 million.
  */
 export const gpuBuildMemory = (count: number): number => planBytes(planBuild(count));

@@ -11,10 +11,10 @@ export interface BvhBindings {
 }
 
 /**
- * What the traversal asks of its host, over three read-only storage buffers as `packHierarchy` fills them: `bvh_nodes`,
- * `bvh_triangles` and `bvh_instances` with `bvh_node`, `bvh_triangle` and `bvh_instance`. For hosts that keep their
- * scenes in buffers of their own, these three functions are a few lines. Either layout: a module of one of them must be
- * there too.
+ * The functions that the traversal needs from its host, for three read-only storage buffers as `packHierarchy` fills
+ * them: `bvh_nodes`, `bvh_triangles` and `bvh_instances` with `bvh_node`, `bvh_triangle` and `bvh_instance`. For hosts
+ * that keep their scenes in buffers of their own, these three functions are a few lines. Either layout: a module of one
+ * of them must be there too.
  */
 export const bvhBuffers = ({ group = 0, binding = 0 }: BvhBindings = {}): WgslModule =>
   wgslModule(

@@ -3,8 +3,9 @@ import type { WgslModule } from '@glanz/wgsl/module';
 import offset from './offset.wesl';
 
 /**
- * `fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f`: where a secondary ray starts so that
- * it does not meet the surface it leaves; `const BVH_OFFSET`: how far that is, of `magnitude`.
+ * `fn bvh_offset_origin(position: vec3f, normal: vec3f, magnitude: f32) -> vec3f`: the origin of a secondary ray,
+ * offset so that the ray does not hit the surface that it leaves; `const BVH_OFFSET`: the offset as a fraction of
+ * `magnitude`.
  *
  * `normal` is the geometric normal, unit, on the side that the ray goes to. `magnitude` is the largest coordinate that
  * went into `position`, before anything cancels out: of the triangle's vertices in the world, with the translation of

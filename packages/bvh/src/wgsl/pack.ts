@@ -29,10 +29,10 @@ export interface PackedHierarchy {
 const NO_INSTANCE = 64;
 
 /**
- * Puts a two-level hierarchy together for the GPU. A BLAS that several instances share is there once.
+ * Packs a two-level hierarchy for the GPU. A BLAS that several instances share is stored once.
  *
- * @param tlas And all BLAS in the same layout.
- * @param parts What each instance is made of, in the order given to `buildTlas`.
+ * @param tlas The TLAS; all BLASes have the same layout.
+ * @param parts Mesh and BLAS of each instance, in the order given to `buildTlas`.
  * @throws {BvhError} `bvh/parts` where an instance has none, `bvh/layout` where a BLAS is of another layout than the
  * TLAS.
  * @example

@@ -1,7 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import { checkedStackSize } from './stack-size';
 
-/** Which hit a ray asks for: the nearest, or whether there is one. */
+/** The hit that a ray queries: the nearest one, or whether there is any. */
 export type BvhQuery = 'closest' | 'any';
 
 /**

@@ -31,9 +31,9 @@ export const bvhClosestHit: WgslModule = traversal('closest');
 export const bvhAnyHit: WgslModule = traversal('any');
 
 /**
- * {@link bvhClosestHit} or {@link bvhAnyHit} with a stack for trees that are less deep than they might be: WGSL clears
- * all of it for each ray. Make it once for each pipeline, and do not put it beside the constant of the same query:
- * `compose` refuses two modules of one name.
+ * {@link bvhClosestHit} or {@link bvhAnyHit} with a smaller stack, for trees of a known depth: WGSL clears the whole
+ * stack for each ray. Create it once per pipeline, and do not combine it with the constant of the same query: `compose`
+ * refuses two modules of one name.
  *
  * @param stackSize Entries. As `packHierarchy` tells it, or more. With less, rays lose hits where they enter more than
  * it holds.

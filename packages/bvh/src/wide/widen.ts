@@ -13,7 +13,7 @@ export interface WideNodes {
 
 /** A {@link Blas} in the wide layout. `packTriangles` takes it. */
 export interface WideBlas extends WideNodes {
-  /** Leaf order → triangle of the mesh. Not the order of the tree it was made of. */
+  /** Leaf order → triangle of the mesh. Not the order of the tree that it was converted from. */
   readonly triangleIndices: Uint32Array<ArrayBuffer>;
 }
 
@@ -21,7 +21,7 @@ export interface WideBlas extends WideNodes {
 export interface WideTlas extends WideNodes {
   /** Leaf order → instance given. */
   readonly instanceOrder: Uint32Array<ArrayBuffer>;
-  /** As in the TLAS it was made of. */
+  /** As in the TLAS that it was converted from. */
   readonly toObject: Float64Array<ArrayBuffer>;
 }
 

@@ -6,7 +6,7 @@ import type { Shot } from './shots';
 
 /** Milliseconds per stage. */
 export interface RenderTimings {
-  /** The model alone, even where it has waited for the GPU to say which formats it reads. */
+  /** Time to load the model, without the time in which it waits for the texture formats of the GPU. */
   loadMs: number;
   /** The environment, made or read. */
   environmentMs: number;
@@ -30,7 +30,7 @@ export interface RenderedShot {
   readonly resumedSamples: number;
   /** How often the GPU was lost, and its work continued on a new device; the pixels do not depend on that. */
   readonly gpuLosses: number;
-  /** Relative error of the image when it was last looked at; only with `--noise`. */
+  /** Relative error of the image when it was last measured; only with `--noise`. */
   readonly noise?: number;
   /** How the image was denoised; absent: not at all. */
   readonly denoised?: string;
@@ -77,7 +77,7 @@ export interface LostGpu {
 
 /** What `--json` prints for several images. */
 export interface BatchResult {
-  /** Whether every image is there. */
+  /** Whether every image was written. */
   readonly ok: boolean;
   readonly version: string;
   /** Those of this run, in the order they were finished. */

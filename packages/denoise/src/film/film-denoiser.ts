@@ -61,7 +61,7 @@ export class FilmDenoiser {
   }
 
   /**
-   * Reads the networks and compiles what does not depend on the size of images.
+   * Reads the networks and compiles the kernels that do not depend on the image size.
    *
    * @param weights Whole archives; `FILM_WEIGHTS` names those of each quality. Nothing is downloaded.
    * @throws {DenoiseError} `denoise/weights`, `denoise/option`, `denoise/pipeline`.

@@ -206,7 +206,7 @@ export class FarmQueue {
   }
 }
 
-/** A failed job that is not tried again by itself. */
+/** A failed job that is not retried automatically. */
 export interface DeadLetter {
   readonly id: string;
   readonly label: string;

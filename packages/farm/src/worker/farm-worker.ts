@@ -68,7 +68,7 @@ const CONNECT_PAUSE_MS = 500;
 const MAX_STALLS = 20;
 const RECENT = 200;
 
-/** One GPU's worker: takes a job, has it rendered in a process of its own, keeps the result, takes the next. */
+/** The worker of one GPU: takes a job, renders it in a process of its own, stores the result, takes the next. */
 export class FarmWorker {
   readonly id = `${hostname()}-${process.pid}-${randomBytes(3).toString('hex')}`;
   readonly #options: FarmWorkerOptions;
@@ -315,7 +315,7 @@ async function untilRedisAnswers(
 }
 
 /**
- * Starts a worker, which runs until it is drained. Redis may go and come back meanwhile.
+ * Starts a worker, which runs until it is drained. It reconnects when the connection to Redis is lost.
  *
  * @throws {FarmError} `farm/missing-package`, `farm/redis`, `farm/option`
  */

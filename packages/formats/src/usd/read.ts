@@ -15,7 +15,9 @@ import { isZip, readStoredZip } from './zip';
 export interface UsdOptions {
   /** What messages call the file. Default "USD". */
   readonly name?: string;
-  /** Reads the images beside a `.usda` or `.usdc` file; a USDZ archive holds its own. Default: nothing is there. */
+  /**
+   * Reads the images beside a `.usda` or `.usdc` file; a USDZ archive contains its images. Default: no files are found.
+   */
   readonly read?: ResourceReader;
   /** Decodes images. Default: they are left out, with a warning. */
   readonly decodeImage?: ImageDecoder;
@@ -106,8 +108,8 @@ function primsOf(layer: UsdLayer): Map<string, UsdPrim> {
 }
 
 /**
- * The files that a `.usda` or `.usdc` file names, as it names them: what must lie beside it. A USDZ archive holds its
- * own and needs none.
+ * The paths of the files that a `.usda` or `.usdc` file refers to, as written in it; they are relative to its folder. A
+ * USDZ archive contains its files and refers to none.
  *
  * @param name What messages call the file.
  * @throws {FormatError} `formats/malformed`

@@ -16,7 +16,7 @@ export interface LoadRequest {
   readonly options: SentOptions;
 }
 
-/** A scene as sent: images that have a bitmap come without pixels, since reading them back is slow. */
+/** A scene as sent: images with a bitmap are sent without pixels, since reading them back is slow. */
 export type SentScene = Omit<Scene, 'images'> & {
   readonly images: readonly (Image | (Pick<Image, 'name' | 'width' | 'height'> & { readonly bitmap: ImageBitmap }))[];
 };

@@ -1,5 +1,5 @@
 /**
- * What an edit does to the samples that the film has.
+ * The effect of an edit on the samples of the film.
  * - `keeps`: they are of the same image; the film goes on.
  * - `reprojects`: the same surfaces are seen from elsewhere, in another resolution, or have moved; the film begins again,
  *   and the frame before stays known as history.

@@ -74,8 +74,8 @@ export class GradientEquirectTexture extends ProceduralEquirectTexture {
 }
 
 /**
- * Stands for the class that blurs environments to reduce noise. Here environments are importance-sampled, so there is
- * nothing to gain: {@link generate} gives a copy that is as sharp as the original.
+ * Replaces the class that blurs environments to reduce noise. Here environments are importance-sampled, so blurring is
+ * not needed: {@link generate} returns an unblurred copy.
  */
 export class BlurredEnvMapGenerator {
   /** @param renderer Not used. */

@@ -9,7 +9,7 @@ import { checkNumber, depthOf, Reports } from './settings';
 
 /** Options of `setScene`. */
 export interface SetSceneOptions {
-  /** Called with how far the preparation has come, 0..1. */
+  /** Called with the progress of the preparation, 0..1. */
   readonly onProgress?: (progress: number) => void;
 }
 
@@ -19,12 +19,12 @@ const NOISE_STRIDE = 4096;
 const NOISES = 1024;
 
 /**
- * Takes the place of three-gpu-pathtracer's class of the same name: the same members, rendered by Glanz on WebGPU and
- * drawn by the renderer that is passed, `WebGLRenderer` or `WebGPURenderer`.
+ * A drop-in replacement for three-gpu-pathtracer's class of the same name: the same members, rendered by Glanz on
+ * WebGPU and drawn by the renderer that is passed, `WebGLRenderer` or `WebGPURenderer`.
  *
- * What takes time runs beside the page: {@link setScene} returns at once, {@link isCompiling} is `true` until the scene is
- * prepared, and {@link renderSample} rasterises until then. A call of `renderSample` begins at most one sample; it appears
- * in a later call.
+ * Work that takes time is asynchronous: {@link setScene} returns at once, {@link isCompiling} is `true` until the scene
+ * is prepared, and {@link renderSample} rasterises until then. A call of `renderSample` begins at most one sample; it
+ * appears in a later call.
  *
  * @example
  * import { WebGLPathTracer } from '@glanz/three/compat';
@@ -40,7 +40,7 @@ export class WebGLPathTracer {
   minSamples = 5;
   /** Milliseconds over which it fades in. Default 500; 0 shows it at once. */
   fadeDuration = 500;
-  /** `false`: only {@link rasterizeSceneCallback} is drawn, and nothing sampled. Default `true`. */
+  /** `false`: only {@link rasterizeSceneCallback} is drawn, without sampling. Default `true`. */
   enablePathTracing = true;
   /** `true`: no samples are added; the image stays. Default `false`. */
   pausePathTracing = false;
@@ -54,7 +54,7 @@ export class WebGLPathTracer {
   synchronizeRenderSize = true;
   /** Draws the rasterised scene while there is no path-traced image. Default `true`. */
   rasterizeScene = true;
-  /** `false`: nothing is drawn; read {@link target}. Default `true`. */
+  /** `false`: does not draw to the canvas; read {@link target}. Default `true`. */
   renderToCanvas = true;
   /** No effect: lights are always sampled by multiple importance sampling. Default `true`. */
   multipleImportanceSampling = true;
@@ -164,12 +164,12 @@ export class WebGLPathTracer {
     return this.#film;
   }
 
-  /** Whether the scene is being prepared or changed; until then nothing is sampled. */
+  /** Whether the scene is being prepared or changed; no samples are added in this time. */
   get isCompiling(): boolean {
     return this.#preparing !== undefined || this.#editing > 0;
   }
 
-  /** What went wrong last: without WebGPU, say. `undefined` while all is well. Errors are written to the console too. */
+  /** The last error, such as missing WebGPU; `undefined` without one. Errors are written to the console too. */
   get error(): unknown {
     return this.#error;
   }
@@ -200,15 +200,15 @@ export class WebGLPathTracer {
   }
 
   /**
-   * Renders another scene, or the same one with what has changed in it: objects that moved, were added or removed cost
-   * what `ThreePathTracer.update` says. Returns at once; errors are in {@link error} and on the console.
+   * Renders another scene, or the same one with its changes, at the cost that `ThreePathTracer` lists for each kind of
+   * change. Returns at once; errors are in {@link error} and on the console.
    */
   setScene(scene: Scene, camera: Camera, options: SetSceneOptions = {}): void {
     this.#run(this.#setScene(scene, camera, options));
   }
 
   /**
-   * The same, for code that waits.
+   * As {@link setScene}, with a promise.
    *
    * @returns When the scene is prepared and sampling can begin.
    * @throws {ThreeError} and what `ThreePathTracer.create` throws; an error with the name `AbortError` where another

@@ -6,7 +6,7 @@ import type { ThreeCamera, ThreeObject } from '../types';
 
 /** Props of {@link PathTracer}. */
 export interface PathTracerProps {
-  /** `false`: the scene is rasterised, and nothing sampled; what is prepared stays. Default `true`. */
+  /** `false`: the scene is rasterised without sampling; the prepared scene is kept. Default `true`. */
   readonly enabled?: boolean;
   /** Samples after which no more are added. Default 1024. */
   readonly samples?: number;
@@ -20,11 +20,11 @@ export interface PathTracerProps {
   readonly exposure?: number;
   /** Options of the tracer, read when it is made. */
   readonly options?: ThreePathTracerOptions['tracer'];
-  /** The device to render on, read when the tracer is made. Default: one of its own. */
+  /** The device to render on, read when the tracer is created. Default: a new device. */
   readonly device?: GPUDevice;
   /** Called after each sample, with how many there are. */
   readonly onSample?: (samples: number) => void;
-  /** Called with what goes wrong; the rasterised image is shown then. Default: written to the console. */
+  /** Called with errors; the rasterised image is shown then. Default: written to the console. */
   readonly onError?: (error: unknown) => void;
   /** Leads to the tracer, once it is prepared. */
   readonly ref?: Ref<ThreePathTracer | null>;
@@ -32,8 +32,8 @@ export interface PathTracerProps {
 
 /**
  * Path-traces the scene of a `<Canvas>` of react-three-fiber: follows what changes in it, and covers the canvas with
- * the image as long as nothing does. The canvas keeps its events; the image lies on a canvas of its own above it, which
- * lets the pointer through. `<PathTracer>` can stand anywhere among the children.
+ * the image while nothing changes. The image is on a canvas of its own above it, which passes pointer events through.
+ * `<PathTracer>` can be anywhere among the children.
  *
  * @example
  * <Canvas>

@@ -10,7 +10,7 @@ import type { VideoSource } from './source';
 
 /** How far a video is. */
 export interface VideoProgress {
-  /** Frames that are finished, of so many. */
+  /** Number of finished frames. */
   readonly frames: number;
   readonly total: number;
   /** Share of the work that is done, 0..1. */

@@ -6,7 +6,7 @@ import { OrbitRig } from '../orbit';
 import { column, type Orbit, type Vector } from '../orbit-state';
 import type { VideoSource } from './source';
 
-/** What a video is made of. */
+/** Scene, camera and tracer of a video. */
 export interface VideoStage {
   /** What the video is recorded from: the viewer that was passed. */
   readonly viewer: VideoSource;
@@ -25,8 +25,8 @@ export interface VideoMotion {
   /** Called before each frame with its time in seconds: for changes that a frame shows as a whole. */
   readonly frame?: (seconds: number) => void | Promise<void>;
   /**
-   * Brings the tracer to a time in seconds, by its edits; resolves when they are made. With an open shutter it is called
-   * several times for each frame, perhaps again from the frame's first one.
+   * Poses the tracer's scene at a time in seconds by edits; resolves when they are done. With an open shutter it is
+   * called several times for each frame, perhaps again from the frame's first one.
    */
   readonly at?: (seconds: number) => void | Promise<void>;
 }
@@ -38,12 +38,12 @@ export type VideoPath = (stage: VideoStage) => VideoMotion | Promise<VideoMotion
 export interface TurntableOptions {
   /** Default 4. */
   readonly seconds?: number;
-  /** How far the camera goes; below 0 to the left. Default 360. */
+  /** Angle by which the camera moves, in degrees; below 0 to the left. Default 360. */
   readonly degrees?: number;
 }
 
 /**
- * The camera of the viewer goes around what it looks at, at a constant speed.
+ * The camera of the viewer orbits its target at a constant speed.
  * @throws {ViewerError} `viewer/option`
  */
 export function turntable({ seconds = 4, degrees = 360 }: TurntableOptions = {}): VideoPath {

@@ -10,16 +10,16 @@ import type { Orbit } from '../orbit-state';
  * itself passes an object with what it shows.
  */
 export interface VideoSource {
-  /** Samples per pixel of a frame where the options do not say. */
+  /** Samples per pixel of a frame, where the options have none. */
   readonly samples: number;
-  /** What is behind the model where the options do not say. */
+  /** Background of the model, where the options have none. */
   readonly background: 'environment' | 'transparent';
   /** EV. */
   readonly exposure: number;
   readonly toneMap: ToneMap;
   /** The camera that the scene is shown with. `undefined` before there is a scene. */
   readonly camera: Camera | undefined;
-  /** Where that camera goes around what it looks at. `undefined` before there is a scene. */
+  /** The orbit of that camera around its target. `undefined` before there is a scene. */
   readonly orbit: Orbit | undefined;
   /** Denoises the frames; `undefined`: they stay as rendered. */
   readonly denoise: Denoising | undefined;
@@ -33,6 +33,9 @@ export interface VideoSource {
 /** Animations of a model, and what poses a path tracer by them. */
 export interface VideoAnimations {
   readonly animations: readonly SceneAnimation[];
-  /** @param tracer Of the same model. @returns Brings the tracer to a time in seconds of the named animation. */
+  /**
+   * @param tracer Of the same model. @returns A function that poses the tracer's scene at a time in seconds of the
+   * named animation.
+   */
   poserFor(tracer: PathTracer): Promise<(name: string | undefined, seconds: number) => Promise<void>>;
 }
