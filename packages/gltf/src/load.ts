@@ -55,6 +55,11 @@ export interface GltfOptions {
   readonly animation?: number | string | undefined;
   /** Seconds from the start of the animation, clamped to its first and last key. Default 0. */
   readonly time?: number | undefined;
+  /**
+   * Whether `animatedParts` of the scene, the node and the primitive of each instance, is there without animations too.
+   * Default false.
+   */
+  readonly partNodes?: boolean | undefined;
   /** Limits on memory, instances and file size. */
   readonly limits?: GltfLimits | undefined;
 }
@@ -140,7 +145,7 @@ export async function buildScene(
   );
   environmentRead.catch(() => undefined);
   let fallback: number | undefined;
-  if (json.animations?.length) scene.animatedParts = [];
+  if (options.partNodes || json.animations?.length) scene.animatedParts = [];
   readNodes({
     json,
     reader,

@@ -39,6 +39,29 @@ describe('instances', () => {
     near(place(loaded, 1, [1, 0, 0]), [0, 3, 5]);
   });
 
+  test('the node and the primitive of each instance, where they are asked for', async () => {
+    const { document, scene, accessor } = start();
+    const triangle = () => document.createPrimitive().setAttribute('POSITION', accessor('VEC3', TRIANGLE));
+    const child = document.createNode('child').setMesh(document.createMesh().addPrimitive(triangle()));
+    const two = document
+      .createMesh()
+      .addPrimitive(triangle().setMaterial(document.createMaterial()))
+      .addPrimitive(triangle());
+    scene.addChild(document.createNode('parent').setMesh(two).addChild(child));
+    const bytes = await write(document);
+    const names = document
+      .getRoot()
+      .listNodes()
+      .map((node) => node.getName());
+    const { animatedParts = [] } = await loadGltf(bytes, { partNodes: true });
+    expect(animatedParts.map(([node, primitive]) => [names[node], primitive])).toEqual([
+      ['parent', 0],
+      ['parent', 1],
+      ['child', 0],
+    ]);
+    expect((await loadGltf(bytes)).animatedParts).toBeUndefined();
+  });
+
   test('a mesh of two primitives gives two meshes and two instances a node', async () => {
     const { document, scene, accessor } = start();
     const mesh = document.createMesh('part');

@@ -72,8 +72,8 @@ export interface Scene {
   /** Animations that the loader can pose the scene by. */
   animations?: SceneAnimation[];
   /**
-   * Of a scene with animations, for each of {@link instances} the node and the primitive of its mesh in the file: what
-   * `openAnimations` of `@glanz/gltf/animation` needs to pose it.
+   * Of a scene with animations, or of one loaded with the option `partNodes`, for each of {@link instances} the node and
+   * the primitive of its mesh in the file: what `openAnimations` of `@glanz/gltf/animation` needs to pose it.
    */
   animatedParts?: (readonly [node: number, primitive: number])[];
   /** Metadata of the file (authors, generator, licence, XMP packets), unchanged. */

@@ -1,5 +1,6 @@
 import type { SentScene } from '@glanz/gltf/workers';
-import type { CompressedFormat } from '@glanz/scene';
+import type { CompressedFormat, Scene } from '@glanz/scene';
+import type { PartGroup } from './part-groups';
 import type { SampleName } from './samples';
 
 /** A model of the playground. */
@@ -21,6 +22,11 @@ export type ModelRequest =
 export type LoadRequest =
   | (ModelRequest & { readonly compressedFormats?: readonly CompressedFormat[] })
   | { readonly kind: 'kit'; readonly level: 'low' | 'medium' };
+
+/** A scene with the groups of its parts, each before those in it. Default: none. */
+export interface GroupedScene extends Scene {
+  readonly groups?: readonly PartGroup[];
+}
 
 /** What it answers: any number of `progress`, then one of the others. */
 export type LoadReply =

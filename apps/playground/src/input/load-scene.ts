@@ -1,10 +1,10 @@
 import { receivedScene } from '@glanz/gltf/workers';
-import type { CompressedFormat, Scene } from '@glanz/scene';
+import type { CompressedFormat } from '@glanz/scene';
 import { PlaygroundError } from '../errors';
-import type { LoadReply, LoadRequest } from './load-messages';
+import type { GroupedScene, LoadReply, LoadRequest } from './load-messages';
 
 interface Asked {
-  readonly resolve: (scene: Scene) => void;
+  readonly resolve: (scene: GroupedScene) => void;
   readonly reject: (error: unknown) => void;
   readonly onProgress: ((stage: string, done: number) => void) | undefined;
 }
@@ -36,7 +36,7 @@ export class LoadWorker {
    *
    * @throws {PlaygroundError} with the code and the message of the loader's error.
    */
-  ask(request: LoadRequest, onProgress?: (stage: string, done: number) => void): Promise<Scene> {
+  ask(request: LoadRequest, onProgress?: (stage: string, done: number) => void): Promise<GroupedScene> {
     return new Promise((resolve, reject) => {
       this.#asked = { resolve, reject, onProgress };
       this.#worker.postMessage(request);
@@ -60,7 +60,7 @@ export async function loadScene(
     readonly onProgress?: (stage: string, done: number) => void;
     readonly compressedFormats?: readonly CompressedFormat[];
   },
-): Promise<Scene> {
+): Promise<GroupedScene> {
   const { signal, onProgress, compressedFormats } = options;
   signal.throwIfAborted();
   const worker = new LoadWorker();

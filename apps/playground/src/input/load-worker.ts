@@ -4,13 +4,28 @@ import { sendableScene, transferablesOf } from '@glanz/gltf/worker';
 import { createCornellBox, createPushButton, createPushButtonKit } from '@glanz/models';
 import type { Scene } from '@glanz/scene';
 import { decoders } from './decoders';
-import type { LoadReply, LoadRequest } from './load-messages';
+import type { GroupedScene, LoadReply, LoadRequest } from './load-messages';
 
 // Reading and making models takes seconds for large ones: here it does not stop the page, and can be stopped by it.
 
 const noImage = () => Promise.resolve({ width: 1, height: 1, data: new Uint8ClampedArray(4) });
 
-async function load(request: LoadRequest): Promise<Scene> {
+/** A scene with the groups that its file has. */
+async function grouped(scene: Scene, file: Blob): Promise<GroupedScene> {
+  const { animatedParts = [], ...others } = scene;
+  const shown = scene.animations ? scene : others;
+  try {
+    const { groupsOf, readDocument } = await import('./part-groups');
+    const nodes = animatedParts.map(([node]) => node);
+    const groups = groupsOf(await readDocument(file), nodes);
+    return groups.length > 0 ? { ...shown, groups } : shown;
+  } catch {
+    // Of a document that the loader has repaired, the parts are shown without groups.
+    return shown;
+  }
+}
+
+async function load(request: LoadRequest): Promise<GroupedScene> {
   if (request.kind === 'files') {
     const { files, entry } = request;
     const bytesOf = async (path: string) => {
@@ -30,7 +45,7 @@ async function load(request: LoadRequest): Promise<Scene> {
       });
     }
     const onProgress = ({ stage, done }: { stage: string; done: number }) => reply({ kind: 'progress', stage, done });
-    return loadGltf(
+    const scene = await loadGltf(
       { files, entry },
       {
         decoders,
@@ -38,9 +53,11 @@ async function load(request: LoadRequest): Promise<Scene> {
         animation: request.animation,
         time: request.time,
         compressedFormats: request.compressedFormats,
-        ...(request.shapesOnly ? { decodeImage: noImage } : {}),
+        ...(request.shapesOnly ? { decodeImage: noImage } : { partNodes: true }),
       },
     );
+    const file = files.get(entry);
+    return request.shapesOnly || !file ? scene : grouped(scene, file);
   }
   if (request.kind === 'kit') return createPushButtonKit({ level: request.level });
   if (request.name === 'cornell-box') return createCornellBox();

@@ -2,12 +2,12 @@ import type { Scene } from '@glanz/scene';
 import type { LinkContent } from '../state/link';
 import { forAnotherModel, type State, type Values } from '../state/state';
 import { loadScene } from './load-scene';
-import type { ModelRequest } from './load-messages';
+import type { GroupedScene, ModelRequest } from './load-messages';
 import { SAMPLES, type SampleName } from './samples';
 
 /** A model as it was loaded. */
 export interface Opened {
-  readonly scene: Scene;
+  readonly scene: GroupedScene;
   readonly request: ModelRequest;
   readonly title: string;
   /** Name in links: that of the sample, or of the file. */

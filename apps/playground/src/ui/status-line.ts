@@ -58,7 +58,7 @@ export class StatusLine {
       destroyed: '',
       rendering: count + left + calm,
       paused: `${count} · paused`,
-      done: `${samples} samples · done${how}${calm}`,
+      done: `${samples} sample${samples > 1 ? 's' : ''} · done${how}${calm}`,
       recovering: 'Waiting for the GPU',
       failed: 'Stopped',
     };
