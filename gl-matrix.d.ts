@@ -1,7 +1,7 @@
 // gl-matrix declares types for 'gl-matrix' alone. Sources here import single modules, which every bundler tree-shakes;
 // these are the functions that they use, over any kind of array.
 
-/** What a function writes into, and gives back. It may be one of the arguments. */
+/** What a function writes into, and returns. It may be one of the arguments. */
 interface GlMatrixOut {
   [index: number]: number;
 }

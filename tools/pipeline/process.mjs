@@ -57,7 +57,7 @@ export function stream(command, args, { cwd = root, env = {}, stdout = 'inherit'
   });
 }
 
-/** Runs a program and gives back what it printed: `{ code, output }`, both streams in the order they came. */
+/** Runs a program and returns what it printed: `{ code, output }`, both streams in the order they came. */
 export function capture(command, args, { cwd = root, env = {}, timeoutMs = 600_000, shell = false } = {}) {
   return new Promise((resolve) => {
     const child = spawn(command, args, {

@@ -1,4 +1,4 @@
-// What every check gives back, and how it is shown.
+// What every check returns, and how it is shown.
 import { relative } from 'node:path';
 import { stripVTControlCharacters } from 'node:util';
 

@@ -20,7 +20,7 @@ const close = (given: readonly number[], expected: readonly number[]) => {
   for (const [k, value] of expected.entries()) expect(given[k]).toBeCloseTo(value, 4);
 };
 
-test('a part turns about the middle of its box, about X, then Y, then Z', () => {
+test('a part rotates about the middle of its box, about X, then Y, then Z', () => {
   expect(pivotOf(scene, 1)).toEqual([12, 1, 2]);
   expect(placedTransform(scene, 1, {})).toBe(scene.instances[1]!.transform);
   const moves = { 0: { translation: [0, 5, 0], rotation: [90, 90, 0], scale: [1, 1, 2] } } as const;

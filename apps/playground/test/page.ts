@@ -58,7 +58,7 @@ export async function open(page: Page, address: string): Promise<void> {
 
 /**
  * Waits in the page itself until a `data-…` attribute of the image is as expected, or 55 s: what Playwright asks for
- * again and again it sees up to a second late, in which a core is idle. What then is not so, the caller's `expect` reports.
+ * repeatedly it sees up to a second late, in which a core is idle. What then is not so, the caller's `expect` reports.
  */
 const untilData = (page: Page, name: string, expected: { readonly is: string } | { readonly above: number }) =>
   page.evaluate(

@@ -185,7 +185,7 @@ describe('BlasCache', () => {
 describe('openIndexedDbStore', () => {
   const bytes = (length: number, value: number) => new Uint8Array(length).fill(value).buffer;
 
-  test('gives back what was set, in a later visit too', async () => {
+  test('returns what was set, in a later visit too', async () => {
     const indexedDB = fakeIndexedDb();
     const store = await openIndexedDbStore({ indexedDB });
     expect(await store.get('a')).toBeUndefined();

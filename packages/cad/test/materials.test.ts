@@ -54,7 +54,7 @@ it.each([
   [{ rules: [{ part: 'a', preset: 'unobtainium' }] }, '/rules/0/preset'],
   [{ rules: [{ part: 'a', colour: '#000000' }] }, '/rules/0/colour'],
   [{ rules: [], fallback: { parameters: { base_colour: 1 } } }, '/fallback/parameters'],
-])('a map that makes no sense: %j', (json, path) => {
+])('an invalid map: %j', (json, path) => {
   try {
     checkMaterialMap(json);
     expect.unreachable();

@@ -98,7 +98,7 @@ describe('bench', () => {
     expect(HELP).toContain(`${(triangles / 1e6).toFixed(1)} million`);
   });
 
-  it('refuses what makes no sense', async () => {
+  it('refuses invalid values', async () => {
     for (const argv of [
       ['--runs', '0'],
       ['--size', 'big'],

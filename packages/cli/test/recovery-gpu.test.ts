@@ -18,7 +18,7 @@ const folder = () =>
   temporaryFolder({ 'red.glb': makeGlb({ camera: true }), 'shoe.glb': makeGlb({ camera: true, variants: true }) });
 
 /**
- * A clock that runs a thousand times as fast, so that a checkpoint is due after every batch. It stands still while a film
+ * A clock that runs a thousand times as fast, so that a checkpoint is due after every batch. It does not advance while a film
  * is copied: the interval grows with the time that a copy took, and on a busy machine no second one would be due.
  */
 class HastyClock {

@@ -184,7 +184,7 @@ describe('a render whose GPU is lost', () => {
     expect(images(cwd)).toEqual([]);
   });
 
-  it('again and again without progress: 5; with progress it continues for as long as it takes', async () => {
+  it('repeatedly without progress: 5; with progress it continues for as long as it takes', async () => {
     const cwd = folder();
     const always = gpus({
       onSample(sample, _name, _nth, device) {

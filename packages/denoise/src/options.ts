@@ -69,8 +69,8 @@ export interface DenoiseResult {
 }
 
 /**
- * An image in a GPU buffer: 32-bit floats, row by row, the top row first. A buffer alone stands for four floats a pixel
- * (RGBA), without gaps, from byte 0.
+ * An image in a GPU buffer: 32-bit floats, row by row, the top row first. A `GPUBuffer` has four floats per pixel
+ * (RGBA), without padding, from byte 0.
  */
 export interface ImageBuffer {
   /** Usage `STORAGE`. */
@@ -99,12 +99,12 @@ export interface DenoiseImages {
   /** Guide: normals, −1 to 1, 0 where there is no surface. The image to denoise, for `normal`. */
   readonly normal?: GPUBuffer | ImageBuffer;
   /**
-   * Where the result goes: another buffer than those above. With a `pixelStride` of 4 or more, the fourth float is copied
+   * Buffer of the result, different from those above. With a `pixelStride` of 4 or more, the fourth float is copied
    * from the image where that has one, and 1 otherwise; what lies beyond stays as it is.
    */
   readonly output: GPUBuffer | ImageBuffer;
   /**
-   * For `hdr`: the factor that brings the image to a mean of about 0.18. Default: computed on the GPU from the image.
+   * For `hdr`: the factor that scales the image to a mean of about 0.18. Default: computed on the GPU from the image.
    * Give a constant where images of a sequence should not flicker. The result is at the brightness of the input.
    */
   readonly scale?: number;

@@ -88,12 +88,12 @@ function readTensor(reader: Reader): TzaTensor {
 }
 
 /**
- * Reads a TZA archive, version 2: the tensors of a neural network, as Open Image Denoise stores them. Nothing outside of
- * the bytes is read, whatever they are.
+ * Reads a TZA archive, version 2: the tensors of a neural network, as Open Image Denoise stores them. It never reads
+ * outside of the bytes, whatever they are.
  *
  * @param bytes The whole file.
  * @returns The tensors by name, in the order of the archive.
- * @throws {DenoiseError} `denoise/weights` for bytes that are something else, truncated or damaged.
+ * @throws {DenoiseError} `denoise/weights` for bytes that are not an archive, truncated or damaged.
  * @example
  * const tensors = parseTza(await (await fetch('rt_hdr_small.tza')).arrayBuffer());
  * tensors.get('enc_conv0.weight')?.shape; // → [32, 3, 3, 3]

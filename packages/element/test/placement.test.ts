@@ -5,7 +5,7 @@ import { placementOf, readOrientation, readScale } from '../src/placement';
 const taken = (m: readonly number[], [x, y, z]: readonly [number, number, number]) =>
   [0, 1, 2].map((k) => Math.round(1e5 * (m[k]! * x + m[4 + k]! * y + m[8 + k]! * z)) / 1e5 + 0);
 
-test('a roll turns about +Z, then a pitch about +X, then a yaw about +Y, after the scale', () => {
+test('a roll rotates about +Z, then a pitch about +X, then a yaw about +Y, after the scale', () => {
   expect(placementOf(null, null)).toBeUndefined();
   const roll = placementOf('90deg 0 0', null)!;
   expect([taken(roll, [1, 0, 0]), taken(roll, [0, 0, 1])]).toEqual([

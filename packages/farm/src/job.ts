@@ -38,7 +38,7 @@ export interface ResultFile {
   readonly sha256: string;
 }
 
-/** What the store keeps of a finished job, beside its files. */
+/** The record of a finished job in the store, in addition to its files. */
 export interface JobResult {
   readonly id: string;
   readonly label: string;
@@ -49,6 +49,6 @@ export interface JobResult {
   readonly worker: string;
   /** ISO 8601. */
   readonly finished: string;
-  /** What the renderer's process says of it. */
+  /** Information from the renderer's process. */
   readonly info?: unknown;
 }

@@ -123,7 +123,7 @@ describe.skipIf(redis.missing !== undefined)(redis.missing ?? 'a farm on Redis',
     expect((await hung.queue.deadLetters())[0]!.reason).toMatch(/did not respond/);
   });
 
-  it('drained, it gives its job back with what there is of it, and another worker continues', async () => {
+  it('drained, it gives its job back with its samples, and another worker continues', async () => {
     const farm = await testFarm(program);
     await farm.queue.submit(farm.requests([jobOf('long', { ms: 4000 })]), farm.store);
     const first = await farm.worker();

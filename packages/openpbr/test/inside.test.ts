@@ -100,7 +100,7 @@ fn openpbr_table_dielectric(coords: vec3f) -> f32 { return 0.0; }
 
 describe('white furnace near the horizon', () => {
   const ROUGHNESSES = [0.1, 0.3, 0.6, 1];
-  it('gives back 0.997 to 1.002 of light on opaque dielectrics of index 0.9 to 0.999', () => {
+  it('returns 0.997 to 1.002 of light on opaque dielectrics of index 0.9 to 0.999', () => {
     for (const specular_ior of [0.9, 0.99, 0.999]) {
       for (const specular_roughness of ROUGHNESSES) {
         const p = resolveParameters({ base_color: [1, 1, 1], specular_ior, specular_roughness });
@@ -110,7 +110,7 @@ describe('white furnace near the horizon', () => {
       }
     }
   });
-  it('gives back 0.997 to 1.002 inside of glass of index 1.001 to 1.05', () => {
+  it('returns 0.997 to 1.002 inside of glass of index 1.001 to 1.05', () => {
     for (const specular_ior of [1.0005, 1.001, 1.002, 1.01, 1.05]) {
       for (const specular_roughness of ROUGHNESSES) {
         const p = resolveParameters({ transmission_weight: 1, specular_ior, specular_roughness });

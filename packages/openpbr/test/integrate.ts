@@ -160,7 +160,7 @@ const interfaces = interfaceAlbedo(300, 300);
 
 /**
  * Directional albedo of a white dielectric over Lambert, or of clear glass, good to 2e-4 however narrow and stretched
- * its highlight and from either side: what single scattering by its facets gives back by a quadrature of its own, which
+ * its highlight and from either side: what single scattering by its facets returns by a quadrature of its own, which
  * knows nothing of the tables and sums; and all the rest, which is smooth, as {@link whiteMetal}.
  */
 export function whiteDielectric(p: OpenPbrParameters, wo: OpenPbrVector, inside = false): number {

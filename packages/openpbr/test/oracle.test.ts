@@ -35,7 +35,7 @@ const FOLLOWS_TEXT_INSTEAD = ['eon_half_weight'];
  */
 const THIN_WALLS = ['glass_thin_r02', 'glass_thin_r06', 'kitchen_thin'];
 
-/** Paper: there it gives back up to 9 % more than it gets. */
+/** Paper: there it returns up to 9 % more than it gets. */
 const PAPER = ['sss_thin', 'kitchen_thin'];
 
 /** There, fuzz roughens the coat below it, which the specification does not ask for. */
@@ -98,7 +98,7 @@ function parametersOf({ params: { exterior_ior: _, ...params } }: OracleSetting)
 /** The host turns the frame towards the viewer, about the tangent, so that +z is on the viewer's side. */
 const over = ([x, y, z]: OpenPbrVector): OpenPbrVector => [x, -y, -z];
 
-/** What there is to compare of a setting: one surface, or for dispersion one per channel. */
+/** The surfaces of a setting to compare: one surface, or for dispersion one per channel. */
 function surfacesOf(setting: OracleSetting): { p: OpenPbrParameters; channels: readonly number[] }[] {
   const p = parametersOf(setting);
   if (!DISPERSED.includes(setting.id)) return [{ p, channels: [0, 1, 2] }];

@@ -102,7 +102,7 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return 0.0; }
 });
 
 describe('stretched metal', () => {
-  it('gives back all light within 0.003 at every roughness, anisotropy and angle: 60 by 5 random views (seed 63)', () => {
+  it('returns all light within 0.003 at every roughness, anisotropy and angle: 60 by 5 random views (seed 63)', () => {
     const next = uniform(63);
     for (const roughness of [0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1]) {
       for (const anisotropy of [0.2, 0.5, 0.8, 0.95, 1]) {

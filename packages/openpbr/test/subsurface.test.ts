@@ -74,7 +74,7 @@ describe('subsurface', () => {
   // The standard error of what they carry is at most 0.007, with GLANZ_FULL half of that.
   const WALKS = process.env['GLANZ_FULL'] === undefined ? 5000 : 20_000;
 
-  it('gives back the colour asked for within 0.05: random walks below smooth interfaces (seed 80)', () => {
+  it('returns the colour asked for within 0.05: random walks below smooth interfaces (seed 80)', () => {
     const next = uniform(80);
     for (const eta of [1.33, 1.5, 1.8]) {
       for (const color of [0.2, 0.5, 0.8, 0.95]) {
@@ -94,7 +94,7 @@ describe('subsurface', () => {
     expect(subsurfaceMedium({ ...p, geometry_thin_walled: true }).extinction).toEqual([0, 0, 0]);
   });
 
-  it('is chosen by its part of what is let through; both choices together carry what there is (seed 81)', () => {
+  it('is chosen by its part of what is let through; both choices together carry all of it (seed 81)', () => {
     const next = uniform(81);
     const p = resolveParameters({
       transmission_weight: 0.5,

@@ -18,7 +18,7 @@ type Values = Readonly<Record<string, unknown>>;
 const same = (a: unknown, b: unknown) => a === b || JSON.stringify(a) === JSON.stringify(b);
 
 /**
- * Keeps one loaded model as its look is declared: sets what has changed since the last time, and gives back to the file's
+ * Keeps one loaded model as its look is declared: sets what has changed since the last time, and returns to the file's
  * own values what is declared no more.
  */
 export class LookKeeper {

@@ -69,19 +69,20 @@ export interface PathTracerOptions {
    */
   readonly caustics?: boolean;
   /**
-   * Unbiased: learns before the first sample from where light comes to the scene's surfaces, and samples such directions
-   * more often. The number of paths that it learns from, in millions: 0 (default) off, 16 for a room. In our tests that
-   * leaves half of the noise of indirect light and of caustics of larger lights, at the same time per sample. Caustics
-   * of small lights through smooth glass, which these paths rarely find, get up to twice as noisy. The guide is learned
-   * once, in `PathTracer.create`: after edits the image stays right, and gains less. 0 to 1000.
+   * Unbiased: learns before the first sample from which directions light reaches the scene's surfaces, and samples
+   * these more often (path guiding). The number of paths that it learns from, in millions: 0 (default) off, 16 for a
+   * room. In our tests that leaves half of the noise of indirect light and of caustics of larger lights, at the same
+   * time per sample. Caustics of small lights through smooth glass, which these paths rarely find, get up to twice as
+   * noisy. The guide is learned once, in `PathTracer.create`: after edits the image stays right, and gains less. 0 to
+   * 1000.
    */
   readonly guiding?: number;
   /** Biased: maximum number of bounces of each kind, besides `maxDepth`. What is not given is not limited. */
   readonly maxBounces?: BounceLimits;
   /**
-   * First-hit AOVs that the film keeps on the GPU from its first sample on, see `PathTracer.aov`. They are written by the
-   * paths themselves and average the film's first 64 samples: guides of denoisers and layers for compositing converge
-   * sooner than light. Default: none, which costs nothing; `PathTracer.setAovs` changes it later.
+   * First-hit AOVs that the film records on the GPU from its first sample on, see `PathTracer.aov`. The paths write
+   * them, and they average the film's first 64 samples: guides of denoisers and layers for compositing converge faster
+   * than light. Default: none, without any cost; `PathTracer.setAovs` changes it later.
    */
   readonly aovs?: readonly AovName[];
   /**
@@ -90,9 +91,9 @@ export interface PathTracerOptions {
    */
   readonly multipleScattering?: boolean;
   /**
-   * Where the random numbers come from. `blue-noise` (default): Owen-scrambled Sobol points that neighbouring pixels
-   * share out among themselves, so that what noise is left is fine-grained; `sobol`: Owen-scrambled Sobol points, each
-   * pixel by itself, with as much noise; `independent`: PCG, which converges slower. All are unbiased.
+   * Source of the random numbers. `blue-noise` (default): Owen-scrambled Sobol points that neighbouring pixels share,
+   * so that the remaining noise has high frequencies; `sobol`: Owen-scrambled Sobol points, independent between pixels,
+   * with the same amount of noise; `independent`: PCG, which converges slower. All are unbiased.
    */
   readonly sampler?: Sampler;
   /**

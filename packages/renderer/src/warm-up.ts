@@ -58,8 +58,8 @@ function smallScene(): Scene {
 }
 
 /**
- * Does the work in advance that only the first scene on a page or in a process needs, for example while a model loads.
- * It prepares a small scene and renders a sample, so that the JavaScript engine has compiled the code for meshes and
+ * Does work in advance that only the first scene on a page or in a process needs, for example while a model loads. It
+ * prepares a small scene and renders a sample, so that the JavaScript engine has compiled the code for meshes and
  * lights, and the device the kernels that most scenes share. Then it frees everything.
  *
  * It takes as much time of the thread as it saves, in slices of a few milliseconds; with `hierarchies` it warms up the

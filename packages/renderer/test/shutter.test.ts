@@ -63,7 +63,7 @@ describe('times of an open shutter', () => {
   });
 });
 
-it('a film that others restart again and again is given up', async () => {
+it('a film that others restart repeatedly is given up', async () => {
   let rendered = 0;
   const tracer: ShutterTracer = {
     accumulates: false,

@@ -71,7 +71,7 @@ test('a scene that changes, a lost device, pauses, sizes and callbacks', async (
   });
   expect(seen[0]).toBeCloseTo(seen[1]!, 6);
 
-  // Another device takes the place of a lost one.
+  // Another device replaces a lost one.
   await page.evaluate(() => {
     (window as { lost?: unknown }).lost = window.running().pathTracer.threePathTracer;
     window.loseGpu();

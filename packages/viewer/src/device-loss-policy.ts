@@ -3,7 +3,7 @@ import { ViewerError } from './errors';
 const WINDOW_MS = 60_000;
 const MAX_LOSSES = 3;
 
-/** Decides whether another device is requested after a loss: not where the GPU fails again and again. */
+/** Decides whether another device is requested after a loss: not where the GPU fails repeatedly. */
 export class DeviceLossPolicy {
   #times: number[] = [];
 
@@ -17,7 +17,7 @@ export class DeviceLossPolicy {
     if (this.#times.length > MAX_LOSSES)
       throw new ViewerError(
         'viewer/device-lost',
-        'The GPU was lost again and again. Show a smaller model or image, or close other programs.',
+        'The GPU was lost repeatedly. Show a smaller model or image, or close other programs.',
       );
     await new Promise((resolve) => setTimeout(resolve, 200 * this.#times.length ** 2));
   }

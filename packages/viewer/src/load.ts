@@ -28,7 +28,7 @@ export interface LoadModelOptions {
    */
   readonly decoders?: GltfDecoders | undefined;
   /**
-   * Starts the worker that reads glTF: a file of yours that calls `serveGltf` of `@glanz/gltf/worker` with decoders.
+   * Starts the worker that reads glTF: your own file that calls `serveGltf` of `@glanz/gltf/worker` with decoders.
    */
   readonly createWorker?: (() => Worker) | undefined;
   /** Whether requests send credentials to other origins too. Default: `same-origin`. */

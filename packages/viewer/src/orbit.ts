@@ -127,8 +127,8 @@ export class OrbitRig {
   }
 
   /**
-   * Turns about the target; radians, positive to the right and up around the model.
-   * @throws {ViewerError} `viewer/camera` for what is not finite.
+   * Orbits the target; radians, positive to the right and up around the model.
+   * @throws {ViewerError} `viewer/camera` for values that are not finite.
    */
   orbit(yaw: number, pitch: number): void {
     checkedAmount(yaw, 'yaw');

@@ -64,7 +64,7 @@ export class PreviewReuse {
   async filter(tracer: PathTracer, begun: boolean, still: boolean, edited: boolean): Promise<void> {
     const filter = this.#filter;
     this.#taken = tracer.samples;
-    // Without a history the tracer tells no motion: there is none where the camera stands still.
+    // Without a history the tracer tells no motion: there is none where the camera does not move.
     const step = !begun ? 'continues' : tracer.history || still ? 'moves' : 'cuts';
     const image = await filter?.image(step, edited).catch(() => undefined);
     if (filter === this.#filter) this.#image = image;

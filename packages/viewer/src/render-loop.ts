@@ -11,7 +11,7 @@ import { PreviewController } from './preview';
 import { PreviewReuse } from './preview-reuse';
 import { nextFrame, soon, Visibility } from './visibility';
 
-/** Samples after which a preview that stands still is as good as it can be. */
+/** Samples after which a preview that does not move is as good as it can be. */
 const PREVIEW_SAMPLES = 16;
 /** A frame that began so many milliseconds ago was not of this frame of the screen. */
 const SCREEN_MS = 15;
@@ -305,7 +305,7 @@ export class RenderLoop {
     const changed = turned || edited;
     if (turned) {
       this.#reuse.shift(tracer);
-      // What stands still keeps its size: samples gather.
+      // A preview that does not move keeps its size: samples gather.
       const depth = plan.divisor > 1 ? Math.min(previewDepth, maxDepth) : maxDepth;
       await this.#fit(tracer, full, depth, 1 / plan.divisor);
       if (tracer !== this.#tracer) return;

@@ -36,7 +36,7 @@ function player(duration = 2) {
   return { made, heard, poses, run };
 }
 
-test('plays the first animation again and again, and says so', () => {
+test('plays the first animation repeatedly, and says so', () => {
   const { made, heard, poses, run } = player();
   expect([made.paused, made.name, made.duration]).toEqual([true, undefined, 0]);
   made.play();

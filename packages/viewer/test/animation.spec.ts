@@ -77,7 +77,7 @@ test('morph targets deform meshes; the rest pose comes back, and survives a loss
   await expect.poll(sides).toEqual(['red', 'green']);
 });
 
-test('without animations there is nothing to play, and a model that is replaced stands still', async ({ page }) => {
+test('without animations there is nothing to play, and a model that is replaced does not move', async ({ page }) => {
   await open(page, served.origin, {}, animatedQuads);
   const result = await page.evaluate(async () => {
     const { viewer } = window;

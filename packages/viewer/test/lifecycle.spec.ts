@@ -218,9 +218,7 @@ test('sizes of zero, one pixel and millions of pixels in sequence: the last one 
   expect((await shot(page)).cells).toEqual(after.cells);
 });
 
-test('in a tab that is hidden again and again nothing is submitted, and the image comes out the same', async ({
-  page,
-}) => {
+test('in a tab that is hidden repeatedly nothing is submitted, and the image comes out the same', async ({ page }) => {
   await injectFaults(page);
   await open(page, served.origin, { samples: 40 });
   const film = () => page.evaluate(async () => Array.from(await window.viewer.tracer!.read('beauty')).join());

@@ -46,7 +46,7 @@ describe('OrbitRig', () => {
     }
   });
 
-  it('begins where the camera stands, and turns about the point beside the centre of the scene', () => {
+  it('begins where the camera stands, and orbits the point beside the centre of the scene', () => {
     const rig = new OrbitRig(front, bounds);
     Array.from(rig.camera().transform).forEach((value, i) =>
       expect(value).toBeCloseTo(front.transform[i] as number, 12),
@@ -69,7 +69,7 @@ describe('OrbitRig', () => {
     rig.step(0.016);
     const turned = rig.camera();
     expect(turned).not.toEqual(rolled);
-    // Upright, and sharp at what it turns about.
+    // Upright, and focused at its target.
     expect(turned.transform[1]).toBe(0);
     expect(turned).toMatchObject({ focus_distance: rig.goal.radius });
     rig.yfov = 0.5;

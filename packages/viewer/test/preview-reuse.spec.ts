@@ -41,7 +41,7 @@ interface Turn {
   readonly samples: number;
 }
 
-/** Turns the view to and fro, if asked to, then to its final place, where it rests. */
+/** Turns the view back and forth, if asked to, then to its final place, where it rests. */
 const turn = (page: Page, mode: PreviewMode, turns: boolean): Promise<Turn> =>
   page.evaluate(
     async ([bytes, given, preview, steps]) => {

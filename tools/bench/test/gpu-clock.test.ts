@@ -6,7 +6,7 @@ import { GpuClock } from '../src/gpu-clock';
 beforeAll(() => testDevice());
 afterEach(() => expectNoGpuErrors());
 
-/** A device whose clock stands still but for what its command buffers take, in nanoseconds. */
+/** A device whose clock advances only by what its command buffers take, in nanoseconds. */
 function steadyDevice() {
   let now = 0n;
   const stamps: bigint[] = [];

@@ -37,7 +37,7 @@ export async function writeDocsImages(images: readonly GalleryImage[], folder: s
     writeFileSync(join(target, `${id}.webp`), bytes);
     process.stdout.write(`${id}.webp: quality ${quality}, ${Math.round(bytes.byteLength / 1000)} kB\n`);
   }
-  // The page shows what there is of the manifest, in its order, with the texts of today and the samples that were rendered.
+  // The page shows the entries of the manifest, in its order, with the texts of today and the samples that were rendered.
   const records = GALLERY.flatMap((image) => {
     const record = known.get(image.id);
     const { id, title, alt, model, variant } = image;

@@ -80,7 +80,7 @@ async function run(device: GPUDevice, code: string, options: ComputeOptions, kee
 }
 
 /**
- * Compiles a compute shader, runs it once, and gives back its output buffer: for unit tests of small WGSL functions.
+ * Compiles a compute shader, runs it once, and returns its output buffer: for unit tests of small WGSL functions.
  * All buffers are in group 0, the inputs first, then the output; a shader need not use them all.
  *
  * @param code WGSL text with one compute entry point.

@@ -2,7 +2,7 @@ import type { Scene } from '@glanz/scene';
 import { LoadWorker } from './load-scene';
 import type { ModelRequest } from './load-messages';
 
-/** A file of the user's, posed again and again by a worker that stays. */
+/** A file of the user's, posed repeatedly by a worker that stays. */
 export class Poser {
   readonly request: ModelRequest & { readonly kind: 'files' };
   readonly #worker = new LoadWorker();

@@ -64,7 +64,7 @@ export interface Lens {
   readonly stop: number;
   /** Sides of the aperture; 0 is round. */
   readonly blades: number;
-  /** Distance in focus, metres; null: the point that the camera turns about. */
+  /** Distance in focus, metres; null: the point that the camera orbits. */
   readonly focus: number | null;
 }
 

@@ -31,7 +31,7 @@ export class Outline {
     delete this.#canvas.dataset['part'];
   }
 
-  /** The image stands still: the line comes back. */
+  /** The image does not move: the line comes back. */
   settled(): void {
     if (this.#parts.length > 0 && this.#canvas.dataset['part'] === undefined) void this.#draw();
   }

@@ -14,7 +14,7 @@ afterEach(() => expectNoGpuErrors());
 const moved = (positions: Float32Array, by: number): Float32Array<ArrayBuffer> =>
   new Float32Array(positions.map((x, i) => x * (1 + 0.5 * Math.sin(by * i))));
 
-test('fits the boxes as the CPU does, bit for bit, again and again', async () => {
+test('fits the boxes as the CPU does, bit for bit, repeatedly', async () => {
   const device = await testDevice({ defaultLimits: true, features: [] });
   const builder = await GpuBuilder.create(device);
   for (const mesh of [

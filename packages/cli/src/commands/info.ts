@@ -80,7 +80,7 @@ export interface ModelInfo {
   readonly warnings: readonly { readonly code: string; readonly message: string; readonly path?: string }[];
 }
 
-/** What there is to know of a scene without rendering it. */
+/** The contents of a scene, without rendering it. */
 export function describeScene(scene: Scene, model: string): ModelInfo {
   const {
     meshes,

@@ -67,7 +67,7 @@ export interface VideoCommand extends ReportOptions {
   /** `undefined`: as long as the animation. */
   readonly seconds: number | undefined;
   readonly motion: Omit<FrameMotion, 'frame'>;
-  /** Degrees that the camera goes around the model; `undefined`: it stands still. */
+  /** Degrees that the camera goes around the model; `undefined`: it does not move. */
   readonly degrees: number | undefined;
   readonly elevation: number;
   readonly ffmpeg: string;
@@ -138,7 +138,7 @@ export function parseVideo(argv: readonly string[]): VideoCommand {
         : undefined
       : number('degrees', values.degrees, 0, { min: -36000, max: 36000 });
   if (degrees !== undefined && values.camera !== undefined)
-    throw usage('--camera stands still, and --degrees goes around the model: give one of the two.');
+    throw usage('--camera is fixed, and --degrees goes around the model: give one of the two.');
   if (degrees === undefined && elevation !== undefined) throw usage('--elevation belongs to --degrees.');
   const times =
     values['shutter-times'] === undefined

@@ -57,7 +57,7 @@ export const encodeAlbedo = (value: number): number => clean(value, 0, 1);
 /** A channel of a normal as the network takes it. */
 export const encodeNormal = (value: number): number => clean(value, -1, 1) * 0.5 + 0.5;
 
-/** The inverse of {@link encodeMain}, of what the network gives back. */
+/** The inverse of {@link encodeMain}, of what the network returns. */
 export function decodeMain(code: number, input: DenoiserInput, scale: number): number {
   const x = clean(code, 0, MAX_FLOAT);
   switch (input) {

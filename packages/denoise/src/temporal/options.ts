@@ -15,8 +15,8 @@ export interface TemporalFilterOptions {
   /** Passes of the spatial filter, 0 to 5; the last one reaches over 2^(passes + 1) pixels. Default 4. */
   readonly passes?: number;
   /**
-   * Samples of the film from which on the image is the film, bit for bit. Between 4 and that the film comes in. 5 or more.
-   * Default 64.
+   * Number of samples from which the image equals the film, bit for bit; between 4 samples and this number the image
+   * fades to the film. 5 or more. Default 64.
    */
   readonly settledSamples?: number;
   /** Ends the creation with the signal's reason. */
@@ -24,11 +24,11 @@ export interface TemporalFilterOptions {
 }
 
 /**
- * How a frame follows from the one before.
+ * Relation of a frame to the one before.
  *
  * - `continues`: the same film, which may have more samples.
  * - `moves`: a new film of the same scene; the camera or instances have moved, as `motion` tells.
- * - `cuts`: a new film that has nothing to do with the one before.
+ * - `cuts`: a new film that is unrelated to the one before.
  */
 export type FrameStep = 'continues' | 'moves' | 'cuts';
 

@@ -63,8 +63,8 @@ function checkOptions({ maxHistory, clampSigmas, passes, settledSamples }: Requi
 type Settings = Omit<TemporalFilterOptions, 'signal'>;
 
 /**
- * Reuses the frames before: shows a film of few samples as if it had many, while the camera or instances move. Works on
- * GPU buffers; the film itself is only read. The image is biased while the film has few samples, and is the film from
+ * Reuses earlier frames: lowers the noise of a film of few samples while the camera or instances move. Works on GPU
+ * buffers; the film itself is only read. The image is biased while the film has few samples, and is the film from
  * `settledSamples` on.
  *
  * - Reprojection: each pixel's history is fetched from where its surface was, as the motion AOV tells, bilinearly from

@@ -19,8 +19,8 @@ export interface TuneOptions extends Omit<DenoiserOptions, 'shapeOf'> {
   /** Pixels of the images, 1 to 16384. */
   readonly height: number;
   /**
-   * Milliseconds after which no more is measured; layers that were not reached keep the usual shape. The most expensive
-   * ones come first. Default 900.
+   * Milliseconds after which measuring stops; the remaining layers keep the default shape. The most expensive ones come
+   * first. Default 900.
    */
   readonly maxMs?: number;
   /** Called after each layer with the part of the work of all layers that was measured, 0 to 1. */

@@ -1,6 +1,6 @@
 import { FarmError } from '../error';
 
-/** Names of what a farm keeps in Redis, beside BullMQ's own keys. */
+/** Names of the keys of a farm in Redis, in addition to those of BullMQ. */
 export interface QueueKeys {
   /** Prefix of BullMQ's keys. */
   readonly prefix: string;

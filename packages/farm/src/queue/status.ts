@@ -34,7 +34,7 @@ export interface FarmStatus {
   readonly retries: Readonly<Record<string, number>>;
   /** Mean duration of a job, seconds; 0 before the first. */
   readonly secondsPerJob: number;
-  /** Seconds until the queue is empty at the present number of workers; absent where nothing is known. */
+  /** Seconds until the queue is empty with the current number of workers; absent where it is not known. */
   readonly secondsLeft?: number;
   /** Those that live, by their heartbeats. */
   readonly workers: readonly WorkerState[];

@@ -172,7 +172,7 @@ export class FolderStore implements FarmStore {
     return join(folder, `${checked(id)}.film`);
   }
 
-  /** Nothing to do: all machines see the file. */
+  /** Does nothing, since all machines can access the file. */
   async keepCheckpoint(): Promise<void> {}
 
   async dropCheckpoint(id: string): Promise<void> {
@@ -180,7 +180,7 @@ export class FolderStore implements FarmStore {
   }
 
   /**
-   * Copies the files of a result to where they are wanted; files that are there already stay.
+   * Copies the files of a result to their destinations; existing files are not changed.
    *
    * @throws {FarmError} `farm/store` for paths outside of the root, too few paths, and files that cannot be written
    */

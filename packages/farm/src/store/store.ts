@@ -55,14 +55,14 @@ export interface FarmStore {
    * @returns Whether this is the first result of the job; otherwise the files are dropped.
    */
   commit(folder: string, result: Omit<JobResult, 'files'>, names: readonly string[]): Promise<boolean>;
-  /** Where a job that is given back keeps its samples; they are there if it was given back before. */
+  /** Path of the samples of a job that was returned to the queue; the file exists if it was returned before. */
   checkpoint(id: string): Promise<string>;
   /** Lets other machines have the samples in the file of {@link checkpoint}, if there is one. */
   keepCheckpoint(id: string): Promise<void>;
   /** Deletes the samples of a job that is finished. */
   dropCheckpoint(id: string): Promise<void>;
   /**
-   * Copies the files of a result to where they are wanted; files that are there already stay.
+   * Copies the files of a result to their destinations; existing files are not changed.
    *
    * @throws {FarmError} `farm/store` for paths outside of the root, too few paths, and files that cannot be written
    */

@@ -31,8 +31,9 @@ export interface FarmWorkerOptions extends FarmQueueOptions {
    */
   readonly outputRoot?: string | false | undefined;
   /**
-   * Milliseconds for which a job belongs to the worker without a renewal of its lock; the job of a worker that is killed
-   * goes to another one after this time. Extended from the worker's own process, which renders nothing. Default: 30 s.
+   * Milliseconds for which a job belongs to the worker without a renewal of its lock; the job of a worker that is
+   * killed goes to another one after this time. The worker's own process, which does not render, renews the lock.
+   * Default: 30 s.
    */
   readonly lockMs?: number | undefined;
   /** Milliseconds that Redis may take to answer at the start. Afterwards commands wait for it. Default: 20 s. */
@@ -121,7 +122,7 @@ export class FarmWorker {
     return Object.values(counts).reduce((sum, count) => sum + count, 0);
   }
 
-  /** Takes no more jobs, gives back the one that is rendered, with its samples so far, and ends. */
+  /** Takes no more jobs, returns the current one to the queue with its samples so far, and ends. */
   async drain(): Promise<void> {
     this.#draining = true;
     clearTimeout(this.#pause);

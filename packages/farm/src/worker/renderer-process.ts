@@ -12,7 +12,7 @@ export type ToRenderer =
       readonly store: StoreAddress;
       /** An empty folder for the files of the result. */
       readonly folder: string;
-      /** Where samples are kept when the job is given back; they are there when it begins again. */
+      /** Path of the samples when the job is returned to the queue; the file exists when the job starts again. */
       readonly checkpoint: string;
     }
   /** Stop, and keep the samples. */
@@ -54,7 +54,10 @@ export interface RendererProcessOptions {
   /** The script that renders, and its arguments. */
   readonly script: string;
   readonly args: readonly string[];
-  /** Written before the command, such as `['nice']`. It must become the command, with its streams. Default: nothing. */
+  /**
+   * Written before the command, such as `['nice']`. The program must execute the command with its streams. Default:
+   * none.
+   */
   readonly prefix?: readonly string[] | undefined;
   readonly env?: Readonly<Record<string, string | undefined>> | undefined;
   /** Milliseconds without a message after which it counts as hung and is killed. Default: ten minutes. */
@@ -139,7 +142,7 @@ export class RendererProcess {
     });
   }
 
-  /** Asks it to stop what it does and to keep its samples. */
+  /** Requests that the process stops rendering and stores its samples. */
   stop(): void {
     this.#child?.send({ type: 'stop' } satisfies ToRenderer, () => undefined);
   }

@@ -5,7 +5,7 @@ export const LZ4_RATIO = 255;
  * Unpacks one LZ4 block (LZ4 Block Format Description) into `target` from `at` on.
  *
  * @returns Where the written bytes end.
- * @throws {RangeError} if the block is cut off, or leads beyond what has been written or what there is room for.
+ * @throws {RangeError} if the block is cut off, or leads beyond what has been written or beyond the end of the output.
  */
 function unpackBlock(block: Uint8Array, target: Uint8Array, at: number): number {
   let from = 0;

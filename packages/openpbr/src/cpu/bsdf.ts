@@ -68,7 +68,7 @@ export interface Bsdf {
   /** Factor on what lies below the interface, by the film. */
   readonly filmPass: OpenPbrColor;
   readonly transmission: Transmission;
-  /** Paper below a thin wall, with what the interface makes of diffuse light. */
+  /** Thin-walled diffuse lobe below the interface, with the albedos of the interface for diffuse light. */
   readonly subsurface: ThinSubsurface;
   /** Probability that a facet of a thin wall reflects. */
   readonly thinChance: number;
@@ -95,7 +95,9 @@ export interface BsdfSample {
   readonly valid: boolean;
   /** `wi` is on the other side. */
   readonly transmitted: boolean;
-  /** It goes into the subsurface's medium, not into the transparent interior; the weight is for this choice. */
+  /**
+   * Whether the direction enters the subsurface medium, not the transparent interior; the weight includes this choice.
+   */
   readonly subsurface: boolean;
 }
 

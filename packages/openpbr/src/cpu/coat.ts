@@ -18,12 +18,12 @@ export interface Coat {
   readonly scale: number;
   /** Directional albedo, times coverage. */
   readonly albedo: number;
-  /** Factors on the base where there is no coat, and where light comes through it towards the viewer. */
+  /** Factors of the base without a coat, and of light that the coat transmits towards the viewer. */
   readonly uncoated: OpenPbrColor;
   readonly through: OpenPbrColor;
   /** log₂ of the transmittance along the normal. */
   readonly absorption: OpenPbrColor;
-  /** Factor on light that the base lets through upwards, so far as the viewer's side goes. */
+  /** Factor of light that the base transmits upwards, for the viewing direction. */
   readonly entry: OpenPbrColor;
   /** The coat's own frame, if it has one. */
   readonly frame: CoatFrame | undefined;
@@ -108,7 +108,7 @@ export const coatTransmittance = (p: OpenPbrParameters, muI: number, muO: number
   return rgb((i) => passage(absorption[i], p.coat_ior, muI) * passage(absorption[i], p.coat_ior, muO));
 };
 
-/** Factor on the base by light that goes on being reflected in the coat; twin of `openpbr_coat_darkening`. */
+/** Factor of the base due to repeated internal reflection in the coat; twin of `openpbr_coat_darkening`. */
 export function coatDarkening(p: OpenPbrParameters, mu: number): OpenPbrColor {
   const base = coatedBase(p);
   const inner = dielectricEpsilon(base.specular_ior, p.specular_weight);

@@ -206,9 +206,9 @@ const energyTotalLostMean = (epsilon: number, roughness: number): number =>
   ]);
 
 /**
- * The part of what single scattering loses that is reflected after more bounces; twin of `openpbr_energy_bounce`. Seen
- * from the thinner medium, the mean reflectance; from inside, where total reflection dominates, such that as much goes
- * through to either side.
+ * The reflected fraction of the energy that single scattering loses; twin of `openpbr_energy_bounce`. Seen from the
+ * thinner medium, the mean reflectance; from inside, where total reflection dominates, such that as much goes through
+ * to either side.
  */
 export function energyBounce(epsilon: number, roughness: number): number {
   const reflected = fresnelMean(Math.abs(epsilon));

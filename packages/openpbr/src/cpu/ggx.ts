@@ -4,7 +4,7 @@ import { clamp, length2, length3, normalize } from './vector';
 /** GGX slopes along the tangent and the bitangent. */
 export type Slopes = readonly [x: number, y: number];
 
-/** Density of a delta lobe that was sampled, beside which all others vanish. */
+/** Density of a delta lobe that was sampled; all other densities are negligible compared with it. */
 export const SPIKE = 1e30;
 
 /** Whether a lobe is a delta, whose only facet is the normal; twin of `openpbr_smooth`. */

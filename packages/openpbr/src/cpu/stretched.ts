@@ -11,8 +11,8 @@ import { facetSeen, insideEnergy, type Kept } from './inside';
 import { clamp, dot } from './vector';
 
 /**
- * The parts of the light that a dielectric with a stretched highlight reflects and lets through by single scattering,
- * seen from `wo`; twin of `openpbr_stretched`, which says how good it is.
+ * Albedos of reflection and transmission by single scattering of a dielectric with an anisotropic highlight, seen from
+ * `wo`; twin of `openpbr_stretched`, whose comment states its error.
  *
  * @param eta Index of the far side over that of the viewer's.
  */

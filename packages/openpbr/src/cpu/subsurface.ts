@@ -20,10 +20,10 @@ export function subsurfaceMedium(p: OpenPbrParameters): Medium {
 }
 
 /**
- * Single-scattering albedo of a half space that gives back the part `color` of what enters it.
+ * Single-scattering albedo of a half space whose diffuse albedo is `color`.
  *
  * @param g Mean cosine of scattering.
- * @param kept Part of diffuse light that the interface reflects back inside.
+ * @param kept Fraction of diffuse light that the interface reflects back inside.
  */
 export function subsurfaceAlbedo(color: number, g: number, kept: number): number {
   const limited = clamp(color, 0, 1);

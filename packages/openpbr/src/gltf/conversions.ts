@@ -10,8 +10,9 @@ export const reflectanceOf = (ior: number): number => ((ior - 1) / (ior + 1)) **
 export const iorOf = (reflectance: number): number => (1 + Math.sqrt(reflectance)) / (1 - Math.sqrt(reflectance));
 
 /**
- * Roughness of the LTC sheen (Zeltner, Burley and Chiang 2022) whose directional albedo comes nearest to that of glTF's
- * sheen of roughness r: within 0.05 for 0.4 to 0.5, 0.1 for 0.3 to 0.7, 0.15 up to 1; below 0.2 glTF's makes energy.
+ * Roughness of the LTC sheen (Zeltner, Burley and Chiang 2022) whose directional albedo is closest to that of glTF's
+ * sheen of roughness r: within 0.05 for 0.4 to 0.5, 0.1 for 0.3 to 0.7, 0.15 up to 1; below 0.2 glTF's sheen gains
+ * energy.
  */
 export function fuzzRoughness(r: number): number {
   return 0.164 + 0.906 * r - 0.281 * r * r;
@@ -34,7 +35,7 @@ export function anisotropicRoughness(
 }
 
 /**
- * Single-scattering albedo of a medium whose half space gives back the part `multiple` of what enters it, without an
+ * Single-scattering albedo of a medium whose half space returns the part `multiple` of what enters it, without an
  * interface (Kulla and Conty 2017), as KHR_materials_volume_scatter states it.
  */
 export function singleScatteringAlbedo(multiple: number): number {

@@ -249,8 +249,8 @@ const STEPS: readonly GltfMappingStep[] = [
 ];
 
 /**
- * Maps a glTF 2.0 material to OpenPBR. Pure: the answer holds the parameters that differ from, or are determined apart
- * from, OpenPBR's defaults, and nothing of the material is changed. {@link gltfTextures} says where its textures go.
+ * Maps a glTF 2.0 material to OpenPBR. Pure: the result has the parameters that differ from OpenPBR's defaults or that
+ * the material sets, and the material is not changed. {@link gltfTextures} maps its textures.
  *
  * | glTF | OpenPBR | lost |
  * |---|---|---|

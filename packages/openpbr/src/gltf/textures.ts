@@ -4,7 +4,7 @@ import { fromGltf } from './from-gltf';
 import type { GltfMaterialFactors, GltfTextureReference } from './material';
 
 /**
- * An image that has to be made of the document's before a texture can drive a parameter: the formula is more than a
+ * An image that must be computed from an image of the document, where the mapping to a parameter is more than a
  * product.
  */
 export interface GltfImageConversion {
@@ -24,12 +24,12 @@ export interface GltfImageConversion {
 /** A texture of a glTF material that drives an OpenPBR parameter: the parameter is its value times the texel. */
 export interface GltfTextureUse {
   readonly parameter: OpenPbrParameterName;
-  /** The reference in the material, as it is, and where it stands there. */
+  /** The reference in the material, unchanged, and its position in it. */
   readonly texture: GltfTextureReference;
   readonly path: string;
   readonly channels: 'rgb' | 'r' | 'g' | 'b' | 'a';
   readonly colorSpace: 'srgb' | 'linear';
-  /** What the codes 0 and 1 stand for; default 0 and 1. */
+  /** Values of the codes 0 and 1; default 0 and 1. */
   readonly range?: readonly [number, number];
   /** Value of the parameter where this texture is read, if not that of {@link fromGltf}. */
   readonly value?: number | OpenPbrColor;
@@ -39,7 +39,7 @@ export interface GltfTextureUse {
 /** What {@link gltfTextures} answers. */
 export interface GltfTextureMapping {
   readonly uses: readonly GltfTextureUse[];
-  /** Textures that OpenPBR has no place for, and why; without those that mean nothing to a path tracer. */
+  /** Textures that OpenPBR cannot represent, and why; without those that a path tracer does not use. */
   readonly lost: readonly { readonly path: string; readonly reason: string }[];
 }
 
@@ -67,8 +67,8 @@ function splitColor(factor: readonly number[], texels: ArrayLike<number>, result
 
 /**
  * Which textures of a glTF material drive which OpenPBR parameters, in which channels and colour space. Pure; the
- * document's images are not needed. Occlusion and thickness textures mean nothing to a path tracer and are not in the
- * answer.
+ * document's images are not needed. A path tracer does not use occlusion and thickness textures; they are not in the
+ * result.
  *
  * @example
  * for (const { parameter, texture, channels } of gltfTextures(material).uses) bind(parameter, texture.index, channels);

@@ -2,7 +2,7 @@ import { GlanzError } from '@glanz/wgsl/error';
 
 /**
  * Thrown where a MaterialX document cannot be read. Codes: `openpbr/materialx-syntax`, `openpbr/materialx-limit`,
- * `openpbr/materialx-reference` (a name that is not there, or a circle), `openpbr/materialx-value`,
+ * `openpbr/materialx-reference` (a name that does not exist, or a circular reference), `openpbr/materialx-value`,
  * `openpbr/materialx-no-surface`. `location.line` says where.
  */
 export class MaterialXError extends GlanzError {}

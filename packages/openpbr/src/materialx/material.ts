@@ -2,7 +2,7 @@ import type { OpenPbrParameterName, OpenPbrParameters } from '../parameters/inde
 
 /** A texture of a MaterialX document, driving one parameter: the parameter is its value times the texel. */
 export interface MaterialXTexture {
-  /** As the document names it, prefixes included; relative to the document. Nothing is read. */
+  /** The path in the document, with its prefixes; relative to the document. The file is not read. */
   readonly file: string;
   readonly channels: 'rgb' | 'r' | 'g' | 'b' | 'a';
   /** `srgb`: RGB codes go through the sRGB curve (alpha never does). `linear`: as they are. */
@@ -14,7 +14,7 @@ export interface MaterialXTexture {
    * these packages v runs down the image; in the document it runs up. Default identity.
    */
   readonly transform?: readonly [number, number, number, number, number, number];
-  /** What the texel values 0 and 1 stand for; default 0 and 1. */
+  /** Parameter values of the texel values 0 and 1; default 0 and 1. */
   readonly range?: readonly [number, number];
   /** Of a normal map: factor on its tangent-plane components; default 1. */
   readonly scale?: number;

@@ -1,6 +1,6 @@
 import { failure, quote } from './error';
 
-/** How large a document may be. What goes beyond is refused with `openpbr/materialx-limit`. */
+/** Maximum size of a document. A larger one is an error, `openpbr/materialx-limit`. */
 export interface MaterialXLimits {
   /** Characters of the text. Default 16,777,216. */
   readonly length?: number;

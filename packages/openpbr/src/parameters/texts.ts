@@ -25,7 +25,7 @@ export const texts: Readonly<Record<OpenPbrParameterName, string>> = {
   transmission_dispersion_abbe_number:
     'Abbe number V_d of the interior: the lower, the more its index of refraction varies with the wavelength.',
   subsurface_weight: 'Mix from diffuse (0) to subsurface scattering (1).',
-  subsurface_color: 'Colour that multiple scattering below the surface gives back.',
+  subsurface_color: 'Colour of the light that returns by multiple scattering below the surface.',
   subsurface_radius: 'Mean free path below the surface, times `subsurface_radius_scale` per channel.',
   subsurface_radius_scale: 'Factor per channel on `subsurface_radius`.',
   subsurface_scatter_anisotropy:

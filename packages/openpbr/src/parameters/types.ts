@@ -50,7 +50,7 @@ export interface OpenPbrParameters {
   readonly transmission_dispersion_abbe_number: number;
   /** Mix from diffuse (0) to subsurface scattering (1). */
   readonly subsurface_weight: number;
-  /** Colour that multiple scattering below the surface gives back. */
+  /** Colour of the light that returns by multiple scattering below the surface. */
   readonly subsurface_color: OpenPbrColor;
   /** Mean free path below the surface, times `subsurface_radius_scale` per channel. */
   readonly subsurface_radius: number;

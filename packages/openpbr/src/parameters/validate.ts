@@ -43,8 +43,8 @@ function unit(name: string, vector: readonly number[], warnings: OpenPbrWarning[
 }
 
 /**
- * Clamps parameters to the specification's hard ranges, and says what it changed. A number that is not finite becomes
- * the default, a vector gets length 1. Values of the wrong kind are errors: guessing would hide a bug.
+ * Clamps parameters to the specification's hard ranges, and reports what it changed. A number that is not finite
+ * becomes the default, a vector gets length 1. Values of the wrong type are errors.
  *
  * @param given Any parameters; missing ones stay missing.
  * @throws {OpenPbrError} `openpbr/parameter-type` if a value is not a number, a triple of numbers, or a boolean as its

@@ -2,7 +2,7 @@ import type { OpenPbrParameters } from '../parameters/index';
 
 /**
  * The example materials of the OpenPBR specification 1.1.1 (`examples/*.mtlx` of AcademySoftwareFoundation/OpenPBR,
- * commit f8d6d94), as they stand there: only what differs from the defaults, colours in ACEScg.
+ * commit f8d6d94), unchanged: only the values that differ from the defaults, colours in ACEScg.
  *
  * Copyright Contributors to the OpenPBR project. Licensed under the Apache License, Version 2.0:
  * `licenses/Apache-2.0.txt`.

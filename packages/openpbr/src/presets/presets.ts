@@ -17,8 +17,8 @@ type Presets = Readonly<Record<OpenPbrPresetName, Partial<OpenPbrParameters>>>;
 /** Options for {@link openPbrPreset}. */
 export interface OpenPbrPresetOptions {
   /**
-   * Metres for a unit of length of the example; default 1, as the numbers stand. Depths and scattering radii of
-   * liquids, skin and stone are plausible as centimetres: 0.01.
+   * Metres per unit of length of the example; default 1. Depths and scattering radii of liquids, skin and stone are
+   * plausible as centimetres: 0.01.
    */
   readonly unit?: number;
 }

@@ -3,8 +3,8 @@ import { resolveParameters } from '../parameters/index';
 import { OPENPBR_INSIDE_NEAR } from '../tables/constants.wesl';
 
 /**
- * The composer's flags that the modules of this package ask for. A lobe whose flag is false is not in the text,
- * whatever the parameters say.
+ * The composer's flags of the modules of this package. A lobe whose flag is false is not in the shader, whatever the
+ * parameters are.
  */
 export interface OpenPbrFlags {
   /** Any microfacet lobe: OPENPBR_METAL, OPENPBR_DIELECTRIC or OPENPBR_COAT. */

@@ -41,7 +41,7 @@ import transmission from './transmission.wesl';
  * Metal and dielectric share one microfacet lobe: they differ by the Fresnel factor only. Diffuse reflection and what
  * bounces on between the facets are sampled by the cosine. The diffuse lobe below the
  * dielectric is weighted by (1 - E(μ_i))(1 - E(μ_o))/(1 - E_mean), which is reciprocal and loses nothing (Ashikhmin,
- * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A thin film takes the place of the
+ * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A thin film replaces the
  * Fresnel factor, and tints what goes through. A coat and fuzz add a lobe each and scale the rest.
  *
  * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what
@@ -160,7 +160,7 @@ export const openpbrSubsurface: WgslModule = subsurface;
 
 /**
  * A thin film on the base, below the coat. Waves reflected by its two faces interfere; Airy's sum, with all its orders
- * and unpolarised, takes the place of the Fresnel factor, by the coverage. Below it lies the dielectric, or metal of a
+ * and unpolarised, replaces the Fresnel factor, by the coverage. Below it lies the dielectric, or metal of a
  * complex index by its reflectance and edge tint (Gulbrandsen 2014).
  *
  * For a band of Lorentzian shape over wavenumbers the spectrum's integral is Airy's sum with a reflection that fades
@@ -205,5 +205,7 @@ export const openpbrEnergy: WgslModule = energy;
  */
 export const openpbrEmission: WgslModule = emission;
 
-/** `openpbr_opacity(p)`: the part of the light that meets the surface at all; the rest goes straight through. */
+/**
+ * `openpbr_opacity(p)`: the fraction of the light that interacts with the surface; the rest passes straight through.
+ */
 export const openpbrOpacity: WgslModule = opacity;

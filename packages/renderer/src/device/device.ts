@@ -12,9 +12,9 @@ export interface DeviceOptions {
   /** Stay within WebGPU's default limits even where the adapter offers more. Default false. */
   readonly defaultLimits?: boolean;
   /**
-   * Called with errors that the device reports outside of any error scope. Glanz runs its own calls inside scopes and
-   * throws what the GPU refuses, so these come from other code that uses the device. Default: the browser writes them
-   * to its console.
+   * Called with errors that the device reports outside of any error scope. Glanz makes its own calls inside error
+   * scopes and throws their errors, so these come from other code that uses the device. Default: the browser writes
+   * them to its console.
    */
   readonly onError?: (error: DeviceError) => void;
 }
@@ -40,7 +40,7 @@ const WELCOME_FEATURES = [
 ] as const;
 
 /**
- * Asks for a WebGPU device with everything Glanz can use: limits as high as the adapter offers, timestamp queries,
+ * Requests a WebGPU device with everything that Glanz can use: limits as high as the adapter offers, timestamp queries,
  * compressed textures.
  *
  * @throws {DeviceError} `renderer/no-webgpu` without WebGPU, `renderer/no-adapter` without a usable GPU,

@@ -109,7 +109,7 @@ export function encodeFilmState(state: FilmState): Uint8Array<ArrayBuffer> {
 /**
  * The bytes of {@link encodeFilmState}, one piece after another, for writers of large files: the sums are not copied.
  *
- * @param withBeauty Whether it holds the layer `beauty`, which merging makes of the sums. Default: true.
+ * @param withBeauty Whether to include the layer `beauty`, which merging computes from the sums. Default: true.
  */
 export function encodeFilmPieces(state: FilmState, withBeauty = true): Uint8Array<ArrayBuffer>[] {
   const { sampling, sums, parts: partial, ...rest } = state;

@@ -13,9 +13,9 @@ export interface FilmPart {
 }
 
 /**
- * Everything that a film has accumulated, and where its sampling stands: what `PathTracer.saveFilm()` returns and
- * `PathTracer.restoreFilm()` accepts. Plain data: it can be posted to a worker, kept while a device is replaced, written
- * to a file with `encodeFilmState`, or merged with films of other samples by `mergeFilmStates` of
+ * The accumulated film and the state of its sampling, which `PathTracer.saveFilm()` returns and
+ * `PathTracer.restoreFilm()` accepts. Plain data: it can be posted to a worker, kept while a device is replaced,
+ * written to a file with `encodeFilmState`, or merged with films of other samples by `mergeFilmStates` of
  * `@glanz/renderer/film`.
  */
 export interface FilmState {
@@ -35,7 +35,7 @@ export interface FilmState {
   readonly lightPasses: number;
   /** Hash of the options, the camera and the scene that the samples are of. */
   readonly fingerprint: string;
-  /** Where sampling goes on. */
+  /** State from which sampling continues. */
   readonly sampling: SamplingState;
   /** Weights of the light groups when the film was begun, which its variance is of, and when it was saved. */
   readonly weights: { readonly first: GroupWeights; readonly last: GroupWeights };

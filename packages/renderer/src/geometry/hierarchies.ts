@@ -8,7 +8,7 @@ import { suitsGpu, type GpuBuilds, type Hierarchy, type HierarchyBuild } from '.
  */
 export interface HierarchyBuilder {
   /**
-   * Asked for every mesh in use at once, the largest first.
+   * Called for all meshes in use at once, the largest first.
    *
    * @param mesh Stays as it is until the promise settles; not to be changed or transferred.
    * @param options `signal` aborts when the scene is no longer wanted or another build has failed; `onProgress` takes
@@ -28,7 +28,7 @@ export interface HierarchyOptions {
   readonly signal?: AbortSignal | undefined;
   /** 0..1, by triangles. */
   readonly onProgress?: ((done: number) => void) | undefined;
-  /** Reports what was built where, when all is there. */
+  /** Reports where hierarchies were built, when all of them are. */
   readonly onBuilt?: ((build: HierarchyBuild) => void) | undefined;
 }
 

@@ -37,9 +37,9 @@ export interface HierarchyBuild {
   readonly where: 'cpu' | 'gpu';
   readonly meshes: number;
   readonly triangles: number;
-  /** From when they were asked for until the last was there. Both places build at the same time. */
+  /** Time from the request until the last one is built. CPU and GPU build at the same time. */
   readonly ms: number;
-  /** Temporary memory on the GPU that one build took at most; freed when all are there. */
+  /** Maximum temporary GPU memory of a build; freed when all are built. */
   readonly temporaryBytes: number;
 }
 

@@ -17,9 +17,9 @@ const FEATURES: Readonly<Record<CompressedFormat, GPUFeatureName>> = {
 };
 
 /**
- * The compressed formats that a device reads, the best first: what loaders want to know to leave images packed. None
- * where the CPU does the work of a GPU: such drivers unpack images by themselves, so nothing is saved, and
- * SwiftShader was seen to read zeros from them on some processors.
+ * The compressed texture formats that a device supports, the best first, for loaders that keep images compressed. None
+ * for software adapters: their drivers decompress images, so no memory is saved, and on some CPUs SwiftShader reads
+ * zeros from them.
  *
  * @example
  * const scene = await loadGltf('lamp.gltf', { decoders, compressedFormats: compressedFormats(device) });

@@ -31,7 +31,7 @@ export interface GpuOptions {
 
 /** WebGPU in Node, as {@link createGpu} found it. */
 export interface NodeGpu {
-  /** Stands in for `navigator.gpu`: pass it to `requestDevice({ gpu })`. */
+  /** Replaces `navigator.gpu`: pass it to `requestDevice({ gpu })`. */
   readonly gpu: GPU;
   /** For people, e.g. `nvidia-h200` or `llvmpipe: Mesa 25.0.7 …`. */
   readonly adapterName: string;
@@ -208,7 +208,7 @@ async function describe(dawn: Dawn): Promise<GpuDescription[]> {
 
 /**
  * Lists the adapters that {@link createGpu} can choose from: those of the installed drivers, and the software GPU that
- * it would fall back to. Equal GPUs are listed one by one, under one name.
+ * it would fall back to. Identical GPUs are listed separately, with the same name.
  *
  * @throws {DeviceError} `renderer/no-webgpu` when Dawn is missing. No adapter at all gives an empty list.
  */

@@ -10,11 +10,11 @@ export interface Dawn {
   readonly globals: object;
 }
 
-/** An adapter name that nothing has; asking for it makes Dawn list what there is. */
+/** An adapter name that nothing has; asking for it makes Dawn list its adapters. */
 const NOBODY = 'glanz-lists-adapters';
 
 /**
- * Loads Dawn. `GPU_WEBGPU` in the environment, a file or URL, takes the place of the `webgpu` package: bundles use it
+ * Loads Dawn. `GPU_WEBGPU` in the environment, a file or URL, replaces the `webgpu` package: bundles use it
  * on machines that have no node_modules.
  */
 export async function loadDawn(): Promise<Dawn> {

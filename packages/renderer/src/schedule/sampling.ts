@@ -16,7 +16,7 @@ export interface SamplingHost extends Pick<RenderLoop, 'queue' | 'submit' | 'roo
   readonly measure: () => Promise<Float32Array>;
 }
 
-/** Where a {@link Sampling} stands: with the film's sums all that a later one needs to go on from there. */
+/** The state of a {@link Sampling}: with the film's sums, everything that is needed to continue it. */
 export interface SamplingState {
   /** Number of the next sample of each tile, row by row; for the tiles under way it is `sample`. */
   readonly counts: Uint32Array<ArrayBuffer>;

@@ -238,7 +238,7 @@ describe('with "camera" light finds the back faces', () => {
     expect(red(await beauty(scene, { camera: above, maxDepth: 2 }))).toBe(0);
   });
 
-  it('and gives back what the floor sends up: between two parallel planes it bounces on', async () => {
+  it('and returns what the floor sends up: between two parallel planes it bounces on', async () => {
     const emits = 0.2,
       reflects = 0.6;
     const scene = createScene();

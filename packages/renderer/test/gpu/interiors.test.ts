@@ -152,7 +152,7 @@ describe('interiors', () => {
     for (let i = 0; i < 100; i++) expect(pixels[4 * i]).toBeGreaterThan(0.8);
   });
 
-  it('milky glass that absorbs nothing gives back what goes in', async () => {
+  it('milky glass that absorbs nothing returns what goes in', async () => {
     const scene = surrounded([1, 1, 1]);
     const { parameters } = matter([0, 0, 0], [4, 6, 9]);
     addSphere(scene, 0.8, [0, 0, 0], {
@@ -163,7 +163,7 @@ describe('interiors', () => {
     for (const value of seen) expect(Math.abs(value - 1)).toBeLessThan(0.02);
   });
 
-  it('subsurface that absorbs nothing gives back what goes in, and a coloured one its colour of a thick body', async () => {
+  it('subsurface that absorbs nothing returns what goes in, and a coloured one its colour of a thick body', async () => {
     const body = (subsurface_color: Vector, parameters: Material['parameters'] = {}): Scene => {
       const scene = surrounded([1, 1, 1]);
       addSphere(scene, 0.8, [0, 0, 0], {

@@ -151,7 +151,7 @@ describe('light groups', () => {
     two.destroy();
   });
 
-  it('refuses groups that are not there, numbers that are none, and too many groups', async () => {
+  it('refuses groups that are not there, numbers that are not finite, and too many groups', async () => {
     const tracer = await render(studio(), { samples: 1 });
     await expect(tracer.setLightGroup('fill', { intensity: 1 })).rejects.toMatchObject({
       code: 'renderer/light-groups',

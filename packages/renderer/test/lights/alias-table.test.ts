@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { buildAliasTable } from '../../src/lights/alias-table';
 
 describe('buildAliasTable', () => {
-  it('gives back exactly the probabilities it was built from', () => {
+  it('returns exactly the probabilities it was built from', () => {
     const weights = [0, 1, 5, 0.25, 1e-9, 3, 0, 40];
     const table = buildAliasTable(weights);
     expect(table).toBeDefined();

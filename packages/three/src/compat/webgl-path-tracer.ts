@@ -263,7 +263,7 @@ export class WebGLPathTracer {
     tracer.tracer.reset({ firstSample: this.stableNoise ? 0 : (this.#resets % NOISES) * NOISE_STRIDE });
   }
 
-  /** Begins a sample, unless one is under way, and draws what there is. To be called for each frame. */
+  /** Begins a sample, unless one is under way, and draws the samples so far. To be called for each frame. */
   renderSample(): void {
     if (this.#disposed) return;
     // A renderer that is being initialised draws nothing yet.

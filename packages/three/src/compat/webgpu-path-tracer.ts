@@ -12,7 +12,7 @@ export interface SampleCounts {
 }
 
 /**
- * Takes the place of the class of that name in `three-gpu-pathtracer/webgpu`: what {@link WebGLPathTracer} does, under
+ * A drop-in replacement for the class of that name in `three-gpu-pathtracer/webgpu`: what {@link WebGLPathTracer} does, under
  * the names that this one has, with its defaults.
  *
  * @example

@@ -14,7 +14,7 @@ export interface VideoStage {
   readonly tracer: PathTracer;
   /** The camera that the viewer has shown the scene with, in the video's shape. */
   readonly camera: Camera;
-  /** What that camera turns about. */
+  /** The target of that camera. */
   readonly target: Vector;
 }
 

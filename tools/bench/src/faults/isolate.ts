@@ -12,7 +12,7 @@ const MAX_IDLE_DEATHS = 3;
  *
  * @param command Program and arguments.
  * @param file The journal.
- * @throws {BenchError} `bench/failed` if the command fails without a signal, or dies again and again between trials.
+ * @throws {BenchError} `bench/failed` if the command fails without a signal, or dies repeatedly between trials.
  */
 export async function untilDone(
   [program, ...args]: readonly [string, ...string[]],

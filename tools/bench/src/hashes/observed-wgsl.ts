@@ -1,4 +1,4 @@
-// Takes the place of @glanz/wgsl for the renderer in the bundle of `hashes`: the programs and flags that it composes
+// Replaces @glanz/wgsl for the renderer in the bundle of `hashes`: the programs and flags that it composes
 // are nowhere else to be seen, since a kernel that is compiled already is not compiled again.
 import { compose as composeUnseen, type ComposedWgsl, type ComposeOptions, type WgslModule } from '@glanz/wgsl';
 

@@ -47,7 +47,7 @@ function zoomed(camera: Camera, frame: number): Camera {
 
 /** Movements by name. */
 export const MOVEMENTS: Readonly<Record<string, Movement>> = {
-  // Around products, and to and fro in front of the room, at the same speed.
+  // Around products, and back and forth in front of the room, at the same speed.
   orbit: {
     camera: true,
     instances: false,
@@ -73,7 +73,7 @@ export const MOVEMENTS: Readonly<Record<string, Movement>> = {
       await tracer.setInstanceTransform(index, moved(scene.instances[index]!.transform, [reach * wave(frame), 0, 0]));
     },
   },
-  // The last instance that emits no light slides to and fro.
+  // The last instance that emits no light slides back and forth.
   instance: {
     camera: false,
     instances: true,

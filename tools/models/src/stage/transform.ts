@@ -33,7 +33,7 @@ export const translation = (x: number, y: number, z: number): Matrix => [
 /** Scales all axes alike. */
 export const scaling = (s: number): Matrix => [s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1];
 
-/** Turns about an axis, degrees, counter-clockwise seen against it. */
+/** Rotates about an axis, degrees, counter-clockwise seen against it. */
 export function rotation(axis: 'x' | 'y' | 'z', degrees: number): Matrix {
   const [c, s] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
   if (axis === 'x') return [1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 0, 0, 0, 1];

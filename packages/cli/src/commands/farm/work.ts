@@ -42,7 +42,7 @@ export async function workCommand(
   const onEvent = (event: WorkerEvent) => {
     if (event.type === 'done') counts.done++;
     if (event.type === 'failed' && event.next.startsWith('given up')) counts.failed++;
-    // While Redis is away the same error comes again and again.
+    // While Redis is away the same error comes repeatedly.
     if (event.type === 'redis' && event.message === lastRedis) return;
     lastRedis = event.type === 'redis' ? event.message : '';
     progress.line(EVENTS[event.type](event as never));

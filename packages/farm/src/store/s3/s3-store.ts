@@ -24,7 +24,7 @@ const exists = (path: string) =>
   );
 
 /**
- * A store in a bucket of S3, or of a server that speaks its protocol. What was read or written is kept in a folder of
+ * A store in a bucket of S3, or of a server that is compatible with it. What was read or written is kept in a folder of
  * this machine, so that the next job of the same scene downloads nothing.
  *
  * | key | holds |
