@@ -104,7 +104,7 @@ test('a group stands for all of its parts: selection, material, visibility, tran
   await expect(row('Boat')).toHaveAttribute('aria-pressed', 'mixed');
   await expect(page.locator('#outline')).toHaveAttribute('data-part', '0 1 2');
   await expect(page.locator('#material-part')).toHaveText(
-    'Picked: Main sail and 2 more, 3 materials; edits apply to all.',
+    'Selected: Main sail and 2 more, 3 materials; edits apply to all.',
   );
   const swatch = (name: string) => row(name).locator('.swatch');
   await restarting(page, () => page.locator('#parameter-base_color').fill('#0000ff'));

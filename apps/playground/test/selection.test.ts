@@ -1,9 +1,9 @@
 import { expect, test } from 'vitest';
 import type { Material } from '@glanz/scene';
 import { chosenParts, toggled, withParts } from '../src/selection';
-import { initialState } from '../src/state/state';
+import { initialState, type Slot } from '../src/state/state';
 import { Store } from '../src/state/store';
-import { editMaterials, replaceMaterials, resetMaterials } from '../src/ui/material/edits';
+import { editMaterials, editSlots, replaceMaterials, resetMaterials } from '../src/ui/material/edits';
 import { chosenMaterials } from '../src/viewer/assigned-material';
 
 const materialOf = (part: number) => 10 + part;
@@ -57,4 +57,26 @@ test('edits of several materials are one step of undo', () => {
     undefined,
   ]);
   expect(store.state.materials).toEqual({});
+});
+
+test('an image goes on all chosen materials, and away from all, as one step of undo', () => {
+  const binding = { texture: 0, channels: 'rgb' } as const;
+  const materials: Material[] = [
+    { name: 'a', parameters: {}, textures: { base_color: binding } },
+    { name: 'b', parameters: {} },
+    { name: 'c', parameters: {} },
+  ];
+  const store = new Store(initialState('none'));
+  const slot: Slot = {
+    image: { name: 'wood', width: 1, height: 1, data: new Uint8ClampedArray(4) },
+    color_space: 'srgb',
+    binding: { channels: 'rgb' },
+  };
+  editSlots(store, materials, [0, 1], 'base_color', slot);
+  expect(store.state.slots).toEqual({ '0/base_color': slot, '1/base_color': slot });
+  editSlots(store, materials, [0, 1, 2], 'base_color', null);
+  // The one that the model brought is taken away; the others were never there.
+  expect(store.state.slots).toEqual({ '0/base_color': null });
+  expect([store.undo(), store.undo(), store.undo()]).toEqual(['Remove texture', 'Texture', undefined]);
+  expect(store.state.slots).toEqual({});
 });

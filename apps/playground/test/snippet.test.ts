@@ -8,6 +8,7 @@ import { htmlSnippet, reactSnippet } from '../src/output/snippet-element';
 import { viewerSnippet } from '../src/output/snippet-viewer';
 import { initialState, type State } from '../src/state/state';
 import { withLens } from '../src/viewer/lens';
+import { pivotOf } from '../src/viewer/moves';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url))
   .replace(/[\\/]$/, '')
@@ -175,6 +176,42 @@ test('what was edited is in the other programs', () => {
   expect(react).toContain(`const parts = { '${part}': false };`);
   expect(react).toContain("cameraOrbit={'0.5rad 1.3208rad 2m'}");
 });
+
+test(
+  'parts that were moved are so in all programs; parts of one name go by their indices',
+  { timeout: 300_000 },
+  () => {
+    const box = scene.instances[3]!;
+    const pivot = pivotOf(scene, 3);
+    const state: State = {
+      ...plain,
+      hidden: [2],
+      moves: { 3: { translation: [1, 2, 3], rotation: [0, 0, 0], scale: [2, 2, 2] } },
+    };
+    // p' = pivot + translation + 2 (p − pivot)
+    const { transform: m } = box;
+    const place = [0, 1, 2].map((k) => 2 * m[12 + k]! - pivot[k]! + [1, 2, 3][k]!);
+    const expected = [...Array.from({ length: 12 }, (_, i) => (i % 4 === 3 ? m[i]! : 2 * m[i]!)), ...place, 1];
+    const twins = { ...scene, instances: scene.instances.map((part) => ({ ...part, name: box.name })) };
+    const programs = [
+      codeSnippet(twins, 'a.glb', state, camera, [64, 48]),
+      viewerSnippet(twins, 'a.glb', state, camera),
+      htmlSnippet(twins, state, view),
+      reactSnippet(twins, state, view),
+    ];
+    for (const code of programs) {
+      const numbers = /setInstanceTransform\(3, \[([^\]]*)\]\)/.exec(code)![1]!.split(', ').map(Number);
+      // Programs have six digits.
+      numbers.forEach((value, i) => expect(value).toBeCloseTo(expected[i]!, 4));
+      expect(numbers.length).toBe(16);
+      expect(code).toContain('setVisibility(2, false)');
+    }
+    expect(complaints(programs[0]!, programs[1]!)).toEqual([]);
+    expect(complaintsAs('packages/react/test/snippet-#.tsx', [programs[3]!])).toEqual([]);
+    const animated = { ...twins, animations: [{ name: 'turn', duration: 2 }] };
+    expect(viewerSnippet(animated, 'a.glb', { ...state, clip: 0 }, camera)).not.toContain('setInstanceTransform');
+  },
+);
 
 test('the floor is in the program of the renderer', () => {
   const code = codeSnippet(scene, 'cornell-box', { ...plain, floor: true }, camera, [64, 48]);

@@ -1,7 +1,16 @@
 import type { Scene } from '@glanz/scene';
 import type { OrbitView, State } from '../state/state';
-import { addressOf, digits, environmentSource, environmentView, isPlainStudio, literal, quoted } from './snippet-text';
-import { editCalls } from './snippet-viewer';
+import {
+  addressOf,
+  digits,
+  environmentSource,
+  environmentView,
+  isNamed,
+  isPlainStudio,
+  literal,
+  quoted,
+} from './snippet-text';
+import { editCalls, moveCalls } from './snippet-viewer';
 
 /** A model with its view, for the element. */
 export interface ElementView {
@@ -59,6 +68,7 @@ function more(scene: Scene, state: State, element: string, edits: boolean): { im
     lines: [
       ...(environment ? [`${element}.viewer?.setEnvironment(${environment.value});`] : []),
       ...(edits ? editCalls(scene, state, `${element}.viewer?`) : []),
+      ...moveCalls(scene, state, `${element}.viewer?`),
       ...(state.clip === null ? [] : [`${element.replace('?', '!')}.currentTime = ${digits(state.time)};`]),
     ],
   };
@@ -101,8 +111,8 @@ const camel = (name: string) => name.replace(/-([a-z])/g, (_, letter: string) =>
 /** A React component that shows the model with `@glanz/react`. */
 export function reactSnippet(scene: Scene, state: State, view: ElementView): string {
   const nameless =
-    Object.keys(state.materials).some((index) => !scene.materials[Number(index)]?.name) ||
-    state.hidden.some((index) => !scene.instances[index]?.name);
+    Object.keys(state.materials).some((index) => !isNamed(scene.materials, Number(index))) ||
+    state.hidden.some((index) => !isNamed(scene.instances, index));
   const { imports, lines } = more(scene, state, 'ref.current?', nameless);
   const props = attributesOf(scene, state, view).map(([key, value]) =>
     value === true

@@ -1,4 +1,6 @@
+import type { Scene } from '@glanz/scene';
 import type { State } from '../state/state';
+import { placedTransform } from '../viewer/placement';
 
 /** Six digits are more than a slider gives. */
 export const digits = (value: unknown): unknown => (typeof value === 'number' ? Number(value.toPrecision(6)) : value);
@@ -29,9 +31,19 @@ export function literal(value: unknown, depth = 0): string {
 export const addressOf = (name: string): string =>
   `/${name.includes('.') ? name : name === 'push-button' ? 'push-button-medium.glb' : `${name}.glb`}`;
 
-/** What chooses a material or a part in calls: its name, or its index where it has none. */
-export const keyOf = (named: { readonly name?: string | undefined } | undefined, index: number): string =>
-  named?.name ? quoted(named.name) : String(index);
+/** Whether a name chooses a material or a part in calls: it has one, and no other one has the same. */
+export function isNamed(list: readonly { readonly name?: string | undefined }[], index: number): boolean {
+  const name = list[index]?.name;
+  return !!name && !list.some((other, i) => i !== index && other.name === name);
+}
+
+/** What chooses a material or a part in calls: its name, or its index where that says nothing. */
+export const keyOf = (list: readonly { readonly name?: string | undefined }[], index: number): string =>
+  isNamed(list, index) ? quoted(list[index]?.name as string) : String(index);
+
+/** Parts that have been moved, with their transforms. */
+export const movedParts = (scene: Scene, { moves }: State): (readonly [part: number, transform: string])[] =>
+  Object.keys(moves).map((part) => [Number(part), literal(Array.from(placedTransform(scene, Number(part), moves)))]);
 
 /** Whether a state is lit by the studio that viewers have by themselves. */
 export const isPlainStudio = ({ environment, studio, boxes }: State): boolean =>

@@ -1,17 +1,36 @@
 import type { Camera, Scene } from '@glanz/scene';
 import type { State } from '../state/state';
 import { filmBackground } from '../viewer/effects';
-import { addressOf, digits, environmentSource, environmentView, keyOf, literal, quoted } from './snippet-text';
+import {
+  addressOf,
+  digits,
+  environmentSource,
+  environmentView,
+  keyOf,
+  literal,
+  movedParts,
+  quoted,
+} from './snippet-text';
 
 /** Calls that bring a model that was loaded to the state's materials and parts. @param viewer An expression. */
 export function editCalls(scene: Scene, state: State, viewer: string): string[] {
   return [
     ...Object.entries(state.materials).map(
-      ([index, values]) =>
-        `${viewer}.setMaterial(${keyOf(scene.materials[Number(index)], Number(index))}, ${literal(values)});`,
+      ([index, values]) => `${viewer}.setMaterial(${keyOf(scene.materials, Number(index))}, ${literal(values)});`,
     ),
-    ...state.hidden.map((index) => `${viewer}.setVisibility(${keyOf(scene.instances[index], index)}, false);`),
+    ...state.hidden.map((index) => `${viewer}.setVisibility(${keyOf(scene.instances, index)}, false);`),
   ];
+}
+
+/** Calls that move parts of a model that was loaded. @param viewer An expression. */
+export function moveCalls(scene: Scene, state: State, viewer: string): string[] {
+  const moved = movedParts(scene, state);
+  // The player of an animation places all parts.
+  if (moved.length > 0 && state.clip !== null) return ['// Parts that were moved are where the animation has them.'];
+  return moved.map(
+    ([part, transform]) =>
+      `${viewer}.edit((tracer) => tracer.setInstanceTransform(${part}, ${transform}), { key: 'move ${part}' });`,
+  );
 }
 
 /**
@@ -47,6 +66,7 @@ export function viewerSnippet(scene: Scene, name: string, state: State, camera: 
     '});',
     `await viewer.load(${quoted(addressOf(name))});`,
     ...editCalls(scene, state, 'await viewer'),
+    ...moveCalls(scene, state, 'await viewer'),
     ...(clip
       ? [
           'const player = await viewer.animation();',

@@ -2,7 +2,7 @@ import { sceneBounds, type Camera, type Scene } from '@glanz/scene';
 import { initialState, type State } from '../state/state';
 import { FLOOR, FLOOR_PARAMETERS, floorMesh } from '../viewer/compose';
 import { filmBackground } from '../viewer/effects';
-import { addressOf, digits, environmentLines, literal, quoted } from './snippet-text';
+import { addressOf, digits, environmentLines, literal, movedParts, quoted } from './snippet-text';
 
 /** Statements that put the invisible floor under the model. */
 function floorLines(scene: Scene): string[] {
@@ -40,6 +40,10 @@ export function codeSnippet(
   for (const index of state.hidden)
     after.push(
       `await tracer.setVisibility(${index}, false); // ${(scene.instances[index]?.name ?? '').replace(/\s+/g, ' ')}`,
+    );
+  for (const [part, transform] of movedParts(scene, state))
+    after.push(
+      `await tracer.setInstanceTransform(${part}, ${transform}); // ${(scene.instances[part]?.name ?? '').replace(/\s+/g, ' ')}`,
     );
   if (state.relight)
     for (const [group, settings] of Object.entries(state.groups))

@@ -45,21 +45,22 @@ export function editMaterials(
   store.set({ materials: edits }, { label, merge: `material ${indices.join()} ${Object.keys(values).join(' ')}` });
 }
 
-/** Puts an image on a parameter, or takes it away. */
-export function editSlot(
+/** Puts an image on a parameter of materials, or takes it away, as one step of undo. @param indices Of the materials. */
+export function editSlots(
   store: Store<State>,
-  material: Material,
-  index: number,
+  materials: readonly Material[],
+  indices: readonly number[],
   parameter: TexturedParameter,
   slot: Slot,
 ): void {
-  const { [slotKey(index, parameter)]: _, ...others } = store.state.slots;
-  // What the model did not have need not be taken away.
-  const nothing = slot === null && !material.textures?.[parameter];
-  store.set(
-    { slots: nothing ? others : { ...others, [slotKey(index, parameter)]: slot } },
-    { label: slot ? 'Texture' : 'Remove texture' },
-  );
+  const slots = { ...store.state.slots };
+  for (const index of indices) {
+    const key = slotKey(index, parameter);
+    // What the model did not have need not be taken away.
+    if (slot === null && !materials[index]?.textures?.[parameter]) delete slots[key];
+    else slots[key] = slot;
+  }
+  store.set({ slots }, { label: slot ? 'Texture' : 'Remove texture' });
 }
 
 /** The image that drives a parameter: set by the user, or part of the model. */

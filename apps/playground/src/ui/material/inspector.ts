@@ -144,7 +144,7 @@ export class MaterialInspector {
         element('span', { class: 'note wide' }, type === 'vector3' ? 'set by a texture' : ''),
       );
     const refreshSlot = info.texturable
-      ? textureSlot(this.#context, this.#index, name, `${capital(group)} ${title}`, row)
+      ? textureSlot(this.#context, this.#index, name, `${capital(group)} ${title}`, row, () => this.#targets())
       : () => undefined;
     if (!this.#acting.has(name)) {
       row.classList.add('idle');

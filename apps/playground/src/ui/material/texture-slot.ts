@@ -1,18 +1,25 @@
 import type { OpenPbrParameterName } from '@glanz/openpbr/parameters';
 import type { TexturedParameter } from '@glanz/scene';
 import { readImage, slotOf } from '../../input/image-file';
+import type { Slot } from '../../state/state';
 import type { Context } from '../context';
 import { element } from '../elements';
 import { icon } from '../icons';
-import { editSlot, slotState } from './edits';
+import { editSlots, slotState } from './edits';
 
-/** The button on a parameter's row that puts an image on it; images may be dropped on the row as well. */
+/**
+ * The button on a parameter's row that puts an image on it; images may be dropped on the row as well.
+ *
+ * @param index Of the material whose image is shown.
+ * @param targets Of the materials that get it.
+ */
 export function textureSlot(
   context: Context,
   index: number,
   name: OpenPbrParameterName,
   title: string,
   row: HTMLElement,
+  targets: () => readonly number[],
 ): () => void {
   const { store, opened, fail, say } = context;
   const material = opened().scene.materials[index];
@@ -30,10 +37,11 @@ export function textureSlot(
     icon('image'),
   );
   const imageLabel = element('span', { class: 'slot-name' });
+  const edit = (slot: Slot) => editSlots(store, opened().scene.materials, targets(), parameter, slot);
   const take = async (file: File) => {
     try {
       const image = await readImage(file);
-      editSlot(store, material, index, parameter, slotOf(image, parameter));
+      edit(slotOf(image, parameter));
       const { scene } = opened();
       if (
         !scene.instances.some(
@@ -48,7 +56,7 @@ export function textureSlot(
     }
   };
   button.addEventListener('click', () => {
-    if (slotState(store.state, material, index, name)) editSlot(store, material, index, parameter, null);
+    if (slotState(store.state, material, index, name)) edit(null);
     else picker.click();
   });
   picker.addEventListener('change', () => {
