@@ -10,7 +10,7 @@ export interface OpenPbrFlags {
   /** Any microfacet lobe: OPENPBR_METAL, OPENPBR_DIELECTRIC or OPENPBR_COAT. */
   readonly OPENPBR_SPECULAR: boolean;
   readonly OPENPBR_METAL: boolean;
-  /** The coat has a normal or a tangent of its own. */
+  /** The coat has its own normal or tangent. */
   readonly OPENPBR_COAT_FRAME: boolean;
   /** Reflection by the dielectric base. Without it the diffuse lobe is not attenuated. */
   readonly OPENPBR_DIELECTRIC: boolean;
@@ -29,7 +29,7 @@ export interface OpenPbrFlags {
    * OPENPBR_COAT.
    */
   readonly OPENPBR_INTERFACE_LOOP: boolean;
-  /** Light through the surface: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
+  /** Transmission: refraction, thin walls; comes with OPENPBR_DIELECTRIC. */
   readonly OPENPBR_TRANSMISSION: boolean;
   /** Light may enter the subsurface; comes with OPENPBR_TRANSMISSION. */
   readonly OPENPBR_SUBSURFACE: boolean;
@@ -40,7 +40,7 @@ export interface OpenPbrFlags {
   /** The table of the losses of mirrors is read: OPENPBR_METAL, OPENPBR_THIN_WALLED or OPENPBR_INNER. */
   readonly OPENPBR_LOSSES: boolean;
   readonly OPENPBR_COAT: boolean;
-  /** A film that interferes on the base; comes with OPENPBR_METAL or OPENPBR_DIELECTRIC. */
+  /** A thin film on the base; comes with OPENPBR_METAL or OPENPBR_DIELECTRIC. */
   readonly OPENPBR_THIN_FILM: boolean;
   /** A layer of fibres over everything else. */
   readonly OPENPBR_FUZZ: boolean;

@@ -12,8 +12,8 @@ export interface SampleCounts {
 }
 
 /**
- * A drop-in replacement for the class of that name in `three-gpu-pathtracer/webgpu`: what {@link WebGLPathTracer} does, under
- * the names that this one has, with its defaults.
+ * A drop-in replacement for the class of that name in `three-gpu-pathtracer/webgpu`: as {@link WebGLPathTracer}, with
+ * the names and defaults of that class.
  *
  * @example
  * import { WebGPUPathTracer } from '@glanz/three/compat';
