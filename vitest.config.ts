@@ -74,36 +74,43 @@ const project = (
   },
 });
 
-/** Tests of the renderer that compile much of the same, and neither count that nor change the device. */
+/**
+ * Tests of the renderer that need no device, and those that compile much of the same and neither count that nor change
+ * the device.
+ */
 const SHARED = [
-  'adaptive',
-  'aov-chains',
-  'aovs',
-  'area-lights',
-  'biased-options',
-  'camera',
-  'catcher',
-  'coat-silhouette',
-  'corners',
-  'delta-transmission',
-  'dispersion',
-  'film-state',
-  'filter',
-  'interiors',
-  'layers',
-  'light-eval',
-  'light-groups',
-  'light-profile',
-  'light-tree',
-  'motion',
-  'path-tracer',
-  'render-scale',
-  'shadow-terminator',
-  'smooth',
-  'spot-light',
-  'textured',
-  'transparent',
-].map((name) => `test/gpu/${name}.test.ts`);
+  '*',
+  '{camera,device,environment,film,geometry,guiding,integrator,lights,materials,schedule,storage}/**/*',
+  ...[
+    'adaptive',
+    'aov-chains',
+    'aovs',
+    'area-lights',
+    'biased-options',
+    'camera',
+    'catcher',
+    'coat-silhouette',
+    'corners',
+    'delta-transmission',
+    'dispersion',
+    'film-state',
+    'filter',
+    'interiors',
+    'layers',
+    'light-eval',
+    'light-groups',
+    'light-profile',
+    'light-tree',
+    'motion',
+    'path-tracer',
+    'render-scale',
+    'shadow-terminator',
+    'smooth',
+    'spot-light',
+    'textured',
+    'transparent',
+  ].map((name) => `gpu/${name}`),
+].map((name) => `test/${name}.test.ts`);
 
 export default defineConfig({
   test: {
