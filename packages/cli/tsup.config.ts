@@ -12,6 +12,9 @@ async function bundlePlayground(): Promise<void> {
 }
 
 export default {
-  ...glanzPackage({ index: 'src/index.ts', glanz: 'src/glanz.ts' }, { platform: 'node' }),
+  ...glanzPackage(
+    { index: 'src/index.ts', glanz: 'src/glanz.ts', 'png-worker': 'src/output/png-worker.ts' },
+    { platform: 'node' },
+  ),
   onSuccess: bundlePlayground,
 };

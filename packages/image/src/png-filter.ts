@@ -9,9 +9,34 @@ function paeth(a: number, b: number, c: number): number {
 /** Distance of a byte from 0, which lies between 255 and 1. */
 const size = (byte: number) => Math.abs((byte << 24) >> 24);
 
-/** What each of the five filters of PNG subtracts from a byte: nothing, left, above, their mean, or the nearest. */
-const predicted = (filter: number, a: number, b: number, c: number) =>
-  filter < 2 ? a * filter : filter === 2 ? b : filter === 3 ? (a + b) >> 1 : paeth(a, b, c);
+/**
+ * Writes what a filter of PNG leaves of a row: the bytes without what it predicts, which is nothing, the byte at the
+ * left, the one above, their mean, or the nearest of left, above and above left. A loop for each filter: large images
+ * have hundreds of millions of bytes.
+ *
+ * @param row Behind as many zeros as a pixel has bytes, as `above`.
+ * @param out Gets the bytes from `at` on.
+ */
+function writeFiltered(
+  filter: number,
+  row: Uint8Array,
+  above: Uint8Array,
+  left: number,
+  out: Uint8Array,
+  at: number,
+): void {
+  const bytes = row.length - left;
+  if (filter === 0) out.set(row.subarray(left), at);
+  else if (filter === 1) for (let i = 0; i < bytes; i++) out[at + i] = (row[i + left] as number) - (row[i] as number);
+  else if (filter === 2)
+    for (let i = 0; i < bytes; i++) out[at + i] = (row[i + left] as number) - (above[i + left] as number);
+  else if (filter === 3)
+    for (let i = 0; i < bytes; i++)
+      out[at + i] = (row[i + left] as number) - (((row[i] as number) + (above[i + left] as number)) >> 1);
+  else
+    for (let i = 0; i < bytes; i++)
+      out[at + i] = (row[i + left] as number) - paeth(row[i] as number, above[i + left] as number, above[i] as number);
+}
 
 /** The filter with the smallest sum of absolute differences; the first of several. */
 function bestFilter(row: Uint8Array, above: Uint8Array, left: number): number {
@@ -58,10 +83,7 @@ export function filterRows(
     row.set(raw.subarray(y * rowBytes, (y + 1) * rowBytes), pixelBytes);
     const best = bestFilter(row, above, pixelBytes);
     out[at] = best;
-    for (let i = 0; i < rowBytes; i++)
-      out[at + 1 + i] =
-        (row[i + pixelBytes] as number) -
-        predicted(best, row[i] as number, above[i + pixelBytes] as number, above[i] as number);
+    writeFiltered(best, row, above, pixelBytes, out, at + 1);
     [row, above] = [above, row];
   }
   return out;

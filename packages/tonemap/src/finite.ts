@@ -18,9 +18,12 @@ export function mapRgb(rgb: Rgb, f: (v: number) => number): [number, number, num
   return [f(rgb[0]), f(rgb[1]), f(rgb[2])];
 }
 
+/** {@link finite} of one component. */
+export const finiteNumber = (v: number) => (v > 0 ? Math.min(v, TONEMAP_MAX) : 0);
+
 /** CPU twin of {@link tonemapFinite}. */
 export function finite(rgb: Rgb): [number, number, number] {
-  return mapRgb(rgb, (v) => (v > 0 ? Math.min(v, TONEMAP_MAX) : 0));
+  return mapRgb(rgb, finiteNumber);
 }
 
 /** To 0..1. */

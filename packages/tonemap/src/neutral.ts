@@ -1,5 +1,5 @@
 import { wgslModule } from '@glanz/wgsl/module';
-import { finite, tonemapFinite } from './finite';
+import { finiteNumber, tonemapFinite } from './finite';
 import type { Rgb } from './names';
 
 /**
@@ -34,16 +34,23 @@ export const tonemapNeutral = wgslModule(
 
 /** CPU twin of {@link tonemapNeutral}. @param out Becomes the result: images have tens of millions of pixels. */
 export function neutralToneMap(rgb: Rgb, out: [number, number, number] = [0, 0, 0]): [number, number, number] {
-  const [r, g, b] = finite(rgb);
+  const r = finiteNumber(rgb[0]);
+  const g = finiteNumber(rgb[1]);
+  const b = finiteNumber(rgb[2]);
   const x = Math.min(r, g, b);
   const offset = x <= 2 * F90 ? x - (x * x) / (4 * F90) : F90;
   const peak = Math.max(r, g, b) - offset;
-  const isBase = peak <= START;
+  if (peak <= START) {
+    out[0] = r - offset;
+    out[1] = g - offset;
+    out[2] = b - offset;
+    return out;
+  }
   const compressed = 1 - (1 - START) ** 2 / (peak + 1 - 2 * START);
   const keep = 1 / (DESATURATION * (peak - compressed) + 1);
-  const curve = (v: number) => (isBase ? v - offset : compressed + ((v - offset) / peak - 1) * compressed * keep);
-  out[0] = curve(r);
-  out[1] = curve(g);
-  out[2] = curve(b);
+  // Not in a function of a component, which would be a new one for each pixel.
+  out[0] = compressed + ((r - offset) / peak - 1) * compressed * keep;
+  out[1] = compressed + ((g - offset) / peak - 1) * compressed * keep;
+  out[2] = compressed + ((b - offset) / peak - 1) * compressed * keep;
   return out;
 }
