@@ -1,4 +1,4 @@
-import { mkdtemp, rm } from 'node:fs/promises';
+import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -70,6 +70,17 @@ describe('pngFile', () => {
     },
     60_000,
   );
+
+  it('a thread that ends without an answer is an error, not a wait without end', async () => {
+    const folder = await mkdtemp(join(tmpdir(), 'glanz-png-'));
+    const script = join(folder, 'ends.mjs');
+    await writeFile(script, 'process.exit(0);');
+    const { width, height } = image(2100, 2000);
+    await expect(pngFile(image(width, height), 8, { ...DISPLAY, transparent: false }, script)).rejects.toThrow(
+      'ended early',
+    );
+    await rm(folder, { recursive: true });
+  });
 
   it('smaller images have the bytes of encodePng', async () => {
     const { width, height, beauty, software } = image(60, 40);

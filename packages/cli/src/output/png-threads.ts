@@ -14,9 +14,10 @@ const SCRIPT = fileURLToPath(new URL('./png-worker.js', import.meta.url));
 /** Has the next band made by a thread. */
 const ask = (worker: Worker, band: LinearBand): Promise<PngBand> =>
   new Promise((resolve, reject) => {
-    worker.once('error', reject);
+    const ended = () => reject(new Error('A thread that compresses PNG has ended early.'));
+    worker.once('error', reject).once('exit', ended);
     worker.once('message', (made: PngBand) => {
-      worker.off('error', reject);
+      worker.off('error', reject).off('exit', ended);
       resolve(made);
     });
     worker.postMessage(band, [band.beauty.buffer]);
