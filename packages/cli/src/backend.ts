@@ -1,5 +1,5 @@
 import type { FilmLayer, FilmState, PathTracerOptions, PathTracer, RenderStatistics } from '@glanz/renderer';
-import type { FilmSource } from '@glanz/renderer/film';
+import type { FilmSource, MergeOptions } from '@glanz/renderer/film';
 import type { DenoiseQuality } from '@glanz/denoise/film';
 import type { ScenePoser } from '@glanz/gltf/animation';
 import type { CompressedFormat, Scene } from '@glanz/scene';
@@ -35,7 +35,7 @@ export interface FilmCodec {
   /** @throws {RenderError} `renderer/film-state` */
   readonly decode: (bytes: Uint8Array) => FilmState;
   /** @throws {RenderError} `renderer/film-state` */
-  readonly merge: (films: readonly FilmSource[]) => Promise<FilmState>;
+  readonly merge: (films: readonly FilmSource[], options?: MergeOptions) => Promise<FilmState>;
   readonly layer: (film: FilmState, layer: 'beauty' | 'variance') => Float32Array;
 }
 

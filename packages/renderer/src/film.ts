@@ -1,5 +1,5 @@
 export { decodeFilmState, encodeFilmPieces, encodeFilmState } from './film/film-codec';
 export type { FilmPart, FilmState } from './film/film-state';
 export { mergeFilmStates } from './film/merge';
-export { mergeFilmSources, type FilmSource } from './film/merge-sources';
+export { mergeFilmSources, type FilmSource, type MergeOptions } from './film/merge-sources';
 export { readFilmState } from './film/compose';

@@ -10,7 +10,7 @@ import { formatOf, type OutputTarget } from '../output/formats';
 import type { DisplayOptions } from '../output/png';
 import { checkWritable, isImage, writeImage, type WrittenFile } from '../output/write';
 import { writeFilmFile } from '../render/film-file';
-import { imageOfFilm, readFilms, SAMPLES_FROM } from '../render/merged-films';
+import { areImagesOnly, imageOfFilm, readFilms, SAMPLES_FROM } from '../render/merged-films';
 import { version } from '../version';
 import { jsonLine, visible } from '../visible';
 
@@ -80,7 +80,7 @@ export async function mergeCommand(
   for (const path of paths) await checkInput(path, io.cwd, 'the film', Infinity);
   for (const { path } of outputs) await checkWritable(path, io.cwd);
   const codec = () => backend.filmCodec();
-  const merged = await readFilms(paths, io.cwd, backend);
+  const merged = await readFilms(paths, io.cwd, backend, areImagesOnly(outputs));
   const { film, settings } = merged;
   const [first] = film.ranges[0] as readonly [number, number];
   const transparent = settings['--transparent'] === 'true' || settings['--background'] === 'transparent';
@@ -90,7 +90,7 @@ export async function mergeCommand(
     if (isImage(target)) files.push(await writeImage(image, target, { ...display, transparent }, io.cwd));
     else {
       const all = { ...settings, [SAMPLES_FROM]: String(first) };
-      files.push({ ...target, bytes: await writeFilmFile(target.path, io.cwd, film, all, codec) });
+      files.push({ ...target, ...(await writeFilmFile(target.path, io.cwd, film, all, codec)) });
     }
   }
   const { width, height, samples, ranges } = film;

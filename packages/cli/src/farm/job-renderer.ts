@@ -9,7 +9,7 @@ import { writeImage, isImage } from '../output/write';
 import { ProgressReporter, type SampleProgress } from '../progress';
 import { writeFilmFile } from '../render/film-file';
 import { GpuWorker } from '../render/gpu-worker';
-import { imageOfFilm, readFilms, SAMPLES_FROM, type MergedFilms } from '../render/merged-films';
+import { areImagesOnly, imageOfFilm, readFilms, SAMPLES_FROM, type MergedFilms } from '../render/merged-films';
 import { SceneLoader } from '../render/scene';
 import type { Shot } from '../render/shots';
 import { version } from '../version';
@@ -76,7 +76,8 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
       hierarchies = await storedHierarchies(store, (error) => progress.warning(describeError(error).message));
       const files = payload.outputs.map((target, i) => outputName(i, target));
       const shot = await shotOf(payload, store, folder, job.kind === 'merge' ? undefined : checkpoint);
-      const merged = job.kind === 'merge' ? await readParts(job.parts ?? [], store) : undefined;
+      const imageOnly = shot.options.denoise === undefined && areImagesOnly(shot.outputs);
+      const merged = job.kind === 'merge' ? await readParts(job.parts ?? [], store, imageOnly) : undefined;
       if (merged && shot.options.denoise === undefined)
         return { files, info: await writeMerged(merged, shot, job.parts?.length ?? 0) };
       // Denoising needs the scene: a merged film is one whose samples are all there.
@@ -89,8 +90,10 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
         return undefined;
       }
       const { samples, resumedSamples, gpuLosses, adapter } = made;
+      const hashed = made.files.flatMap(({ sha256 }, i) => (sha256 === undefined ? [] : [[files[i], sha256] as const]));
       return {
         files,
+        hashes: Object.fromEntries(hashed),
         info: {
           samples,
           resumedSamples,
@@ -116,9 +119,9 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
     },
   };
 
-  async function readParts(parts: readonly string[], store: FarmStore): Promise<MergedFilms> {
+  async function readParts(parts: readonly string[], store: FarmStore, imageOnly: boolean): Promise<MergedFilms> {
     const paths = await Promise.all(parts.map((id) => store.resultFile(id, outputName(0, { format: 'film' }))));
-    return readFilms(paths, io.cwd, backend);
+    return readFilms(paths, io.cwd, backend, imageOnly);
   }
 
   async function writeMerged(merged: MergedFilms, { options, outputs }: Shot, parts: number) {

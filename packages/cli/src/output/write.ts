@@ -13,6 +13,8 @@ export interface WrittenFile {
   readonly format: OutputTarget['format'];
   readonly bits: number;
   readonly bytes: number;
+  /** SHA-256, hexadecimal, where it was computed while writing. */
+  readonly sha256?: string;
 }
 
 const REPLACE = constants.O_WRONLY | constants.O_CREAT | constants.O_TRUNC | (constants.O_NOFOLLOW ?? 0);

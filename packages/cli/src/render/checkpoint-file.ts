@@ -112,7 +112,7 @@ export class CheckpointFile {
     state: FilmState,
     codec: () => Promise<FilmCodec>,
     options: FilmFileOptions = { sync: true },
-  ): Promise<number> {
+  ): Promise<{ readonly bytes: number; readonly sha256?: string }> {
     return writeFilmFile(this.path, this.#cwd, state, await this.#ownSettings(), codec, options);
   }
 

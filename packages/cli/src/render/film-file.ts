@@ -1,3 +1,4 @@
+import { createHash, type Hash } from 'node:crypto';
 import { open, stat, type FileHandle } from 'node:fs/promises';
 import type { FilmCodec, FilmSource, FilmState } from '../backend';
 import { writeWhole } from '../output/write';
@@ -18,6 +19,9 @@ export interface FilmFileHeader {
 
 /** Bytes that one call reads or writes. */
 const CALL_BYTES = 2 ** 30;
+
+/** Bytes that are hashed while as many are written. */
+const HASH_BYTES = 2 ** 24;
 
 /** How the reader of a film file reports what is wrong with it. */
 export interface FilmFileErrors {
@@ -120,13 +124,15 @@ export interface FilmFileOptions {
   readonly sync?: boolean;
   /** Whether it holds the layer `beauty`, which merging makes again. Default: true. */
   readonly withBeauty?: boolean;
+  /** Whether its SHA-256 is computed meanwhile. Default: false. */
+  readonly hashed?: boolean;
 }
 
 /**
  * Writes a film file, which appears whole or not at all.
  *
  * @param path Relative to `cwd`, or absolute.
- * @returns The number of bytes.
+ * @returns The number of bytes, and their SHA-256, hexadecimal, if it was asked for.
  * @throws {CliError} `cli/output`
  */
 export async function writeFilmFile(
@@ -135,26 +141,38 @@ export async function writeFilmFile(
   state: FilmState,
   settings: FilmFileHeader['settings'],
   codec: () => Promise<FilmCodec>,
-  { sync = false, withBeauty = true }: FilmFileOptions = {},
-): Promise<number> {
+  { sync = false, withBeauty = true, hashed = false }: FilmFileOptions = {},
+): Promise<{ readonly bytes: number; readonly sha256?: string }> {
   const pieces = (await codec()).encode(state, withBeauty);
   const bytes = pieces.reduce((sum, { length }) => sum + length, 0);
   const header: FilmFileHeader = { settings, samples: state.samples, bytes };
   const lines = new TextEncoder().encode(`${FIRST_LINE}${JSON.stringify(header)}\n`);
+  const hash = hashed ? createHash('sha256') : undefined;
   const write = async (handle: FileHandle) => {
     let at = 0;
     for (const piece of [lines, ...pieces]) {
-      await writeAt(handle, piece, at);
+      await writeAt(handle, piece, at, hash);
       at += piece.length;
     }
   };
   await writeWhole(path, cwd, write, { sync });
-  return lines.length + bytes;
+  return { bytes: lines.length + bytes, ...(hash ? { sha256: hash.digest('hex') } : {}) };
 }
 
-async function writeAt(handle: FileHandle, bytes: Uint8Array, position: number): Promise<void> {
+/** @param hash Gets the bytes, in steps, while they are written by another thread. */
+async function writeAt(handle: FileHandle, bytes: Uint8Array, position: number, hash: Hash | undefined): Promise<void> {
+  for (let at = 0; at < bytes.length;) {
+    const count = Math.min(hash ? HASH_BYTES : CALL_BYTES, bytes.length - at);
+    const writing = writeAll(handle, bytes.subarray(at, at + count), position + at);
+    hash?.update(bytes.subarray(at, at + count));
+    await writing;
+    at += count;
+  }
+}
+
+async function writeAll(handle: FileHandle, bytes: Uint8Array, position: number): Promise<void> {
   for (let at = 0; at < bytes.length;)
-    at += (await handle.write(bytes, at, Math.min(CALL_BYTES, bytes.length - at), position + at)).bytesWritten;
+    at += (await handle.write(bytes, at, bytes.length - at, position + at)).bytesWritten;
 }
 
 function parseHeader(text: string): FilmFileHeader | undefined {

@@ -147,7 +147,7 @@ export class GpuWorker {
       ? await timed('readMs', () => readImage(tracer, options, samples, denoised))
       : undefined;
     const film = shot.outputs.some(({ format }) => format === 'film')
-      ? await timed('readMs', () => tracer.saveFilm())
+      ? await timed('readMs', () => tracer.saveFilm({ beauty: !shot.isPart }))
       : undefined;
     await this.#flushed();
     const files: WrittenFile[] = [];
@@ -282,8 +282,11 @@ export class GpuWorker {
   async #writeFilm(film: FilmState, { path, format, bits }: OutputTarget, shot: Shot): Promise<WrittenFile> {
     const { io, backend } = this.#context;
     const file = new CheckpointFile(path, shot, io.cwd);
-    const bytes = await file.write(film, () => backend.filmCodec(), { withBeauty: !shot.isPart });
-    return { path, format, bits, bytes };
+    const written = await file.write(film, () => backend.filmCodec(), {
+      withBeauty: !shot.isPart,
+      hashed: shot.isPart === true,
+    });
+    return { path, format, bits, ...written };
   }
 
   /** Throws what the device has had to say of the work so far, before anything is written. */

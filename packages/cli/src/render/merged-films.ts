@@ -9,6 +9,10 @@ import { openFilmFile, settingDifferences, type FilmFileHeader, type OpenFilmFil
 /** The setting in which films to be merged may differ. */
 export const SAMPLES_FROM = '--samples-from';
 
+/** Whether outputs show the beauty alone, so that a film's other sums need not be kept. */
+export const areImagesOnly = (outputs: readonly OutputTarget[]): boolean =>
+  outputs.every(({ format }) => format === 'png' || format === 'hdr');
+
 /** What {@link readFilms} gives. */
 export interface MergedFilms {
   readonly film: FilmState;
@@ -20,11 +24,17 @@ export interface MergedFilms {
 /**
  * Reads films of the same image and adds up their samples.
  *
+ * @param imageOnly Whether the film's image is all that is wanted, see `mergeFilmSources`. Default: false.
  * @returns The film, the settings of the first file, and whether merging has made the film's beauty.
  * @throws {CliError} `cli/film`
  * @throws {RenderError} `renderer/film-state`
  */
-export async function readFilms(paths: readonly string[], cwd: string, backend: Backend): Promise<MergedFilms> {
+export async function readFilms(
+  paths: readonly string[],
+  cwd: string,
+  backend: Backend,
+  imageOnly = false,
+): Promise<MergedFilms> {
   const codec = () => backend.filmCodec();
   let settings: FilmFileHeader['settings'] = {};
   const files: OpenFilmFile[] = [];
@@ -53,7 +63,10 @@ export async function readFilms(paths: readonly string[], cwd: string, backend: 
       files.push(opened);
     }
     const { merge } = await codec();
-    const film = await merge(files.map(({ source }) => source));
+    const film = await merge(
+      files.map(({ source }) => source),
+      { imageOnly },
+    );
     return { film, settings, isComposed: files.filter(({ header }) => header.samples > 0).length > 1 };
   } finally {
     for (const { close } of files) await close();

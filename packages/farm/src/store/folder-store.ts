@@ -152,11 +152,16 @@ export class FolderStore implements FarmStore {
    *
    * @returns Whether this is the first one; otherwise the folder is deleted.
    */
-  async commit(folder: string, result: Omit<JobResult, 'files'>, names: readonly string[]): Promise<boolean> {
+  async commit(
+    folder: string,
+    result: Omit<JobResult, 'files'>,
+    names: readonly string[],
+    hashes: Readonly<Record<string, string>> = {},
+  ): Promise<boolean> {
     const files = await Promise.all(
       names.map(async (name) => {
         const { size } = await stat(join(folder, name));
-        return { name, bytes: size, sha256: await hashFile(join(folder, name)) };
+        return { name, bytes: size, sha256: hashes[name] ?? (await hashFile(join(folder, name))) };
       }),
     );
     await writeWhole(join(folder, 'result.json'), JSON.stringify({ ...result, files } satisfies JobResult));

@@ -52,9 +52,15 @@ export interface FarmStore {
    * Makes the files of a working folder the result of its job, and deletes the folder.
    *
    * @param names The files.
+   * @param hashes SHA-256, hexadecimal, of files that were hashed while they were written; others are hashed here.
    * @returns Whether this is the first result of the job; otherwise the files are dropped.
    */
-  commit(folder: string, result: Omit<JobResult, 'files'>, names: readonly string[]): Promise<boolean>;
+  commit(
+    folder: string,
+    result: Omit<JobResult, 'files'>,
+    names: readonly string[],
+    hashes?: Readonly<Record<string, string>>,
+  ): Promise<boolean>;
   /** Path of the samples of a job that was returned to the queue; the file exists if it was returned before. */
   checkpoint(id: string): Promise<string>;
   /** Lets other machines have the samples in the file of {@link checkpoint}, if there is one. */

@@ -162,6 +162,7 @@ export class FarmWorker {
               ...(end.info === undefined ? {} : { info: end.info }),
             },
             end.files,
+            end.hashes,
           );
           await store.dropCheckpoint(job.id);
           const result = await store.result(job.id);

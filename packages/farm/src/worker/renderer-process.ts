@@ -18,10 +18,20 @@ export type ToRenderer =
   /** Stop, and keep the samples. */
   | { readonly type: 'stop' };
 
+/** What a finished job has left in its folder. */
+export interface RenderedFiles {
+  /** Names of its files. */
+  readonly files: readonly string[];
+  /** SHA-256, hexadecimal, of files that were hashed while they were written; the store hashes the others. */
+  readonly hashes?: Readonly<Record<string, string>>;
+  /** What the renderer says of the job. */
+  readonly info?: unknown;
+}
+
 /** What a renderer's process sends. */
 export type FromRenderer =
   | { readonly type: 'progress'; readonly samples: number; readonly of: number }
-  | { readonly type: 'done'; readonly files: readonly string[]; readonly info?: unknown }
+  | ({ readonly type: 'done' } & RenderedFiles)
   | { readonly type: 'stopped' }
   | { readonly type: 'failed'; readonly kind: RendererFailure; readonly code: string; readonly message: string };
 
@@ -45,9 +55,7 @@ export class RenderFailure extends Error {
 }
 
 /** How a job ended, if it did not fail. */
-export type RenderEnd =
-  | { readonly type: 'done'; readonly files: readonly string[]; readonly info?: unknown }
-  | { readonly type: 'stopped' };
+export type RenderEnd = ({ readonly type: 'done' } & RenderedFiles) | { readonly type: 'stopped' };
 
 /** Options of {@link RendererProcess}. */
 export interface RendererProcessOptions {

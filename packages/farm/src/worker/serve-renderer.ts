@@ -1,4 +1,4 @@
-import type { FromRenderer, RendererFailure, ToRenderer } from './renderer-process';
+import type { FromRenderer, RenderedFiles, RendererFailure, ToRenderer } from './renderer-process';
 
 /** What renders jobs in a renderer's process. */
 export interface JobRenderer {
@@ -13,7 +13,7 @@ export interface JobRenderer {
     message: Extract<ToRenderer, { readonly type: 'job' }>,
     signal: AbortSignal,
     onProgress: (samples: number, of: number) => void,
-  ): Promise<{ readonly files: readonly string[]; readonly info?: unknown } | undefined>;
+  ): Promise<RenderedFiles | undefined>;
   /** What an error means for the job. */
   failureOf(error: unknown): { readonly kind: RendererFailure; readonly code: string; readonly message: string };
 }

@@ -22,6 +22,38 @@ export function readFilmState(state: FilmState, layer: 'beauty' | 'variance'): F
 
 const LUMINANCE = [0.2126, 0.7152, 0.0722] as const;
 
+/**
+ * The beauty of some pixels of a film with one light group and no catchers in place of their sums: the same bits as of
+ * {@link readFilmState}.
+ *
+ * @param total `film_total`, which becomes the beauty.
+ * @param moments `film_moment` of these pixels, of each of the films that are added up.
+ * @param at The first float of these pixels.
+ */
+export function composeInPlace(
+  total: Float32Array,
+  block: Float32Array,
+  [wr, wg, wb]: readonly [number, number, number],
+  moments: readonly Float32Array[],
+  at: number,
+): void {
+  const length = moments[0]?.length ?? 0;
+  for (let j = 0, i = at; j < length; j += 4, i += 4) {
+    let count = 0;
+    for (let k = 0; k < moments.length; k++) count += (moments[k] as Float32Array)[j + 3] as number;
+    // As the merged film stores it.
+    count = Math.fround(count);
+    if (count === 0) {
+      total.fill(0, i, i + 4);
+      continue;
+    }
+    total[i] = (wr * ((total[i] as number) + (block[i] as number))) / count;
+    total[i + 1] = (wg * ((total[i + 1] as number) + (block[i + 1] as number))) / count;
+    total[i + 2] = (wb * ((total[i + 2] as number) + (block[i + 2] as number))) / count;
+    total[i + 3] = ((total[i + 3] as number) + (block[i + 3] as number)) / count;
+  }
+}
+
 /** The twin of `film_compose` in `film.wesl`. */
 function composeBeauty({ width, height, lightPasses, weights: { last }, sums }: FilmState): Float32Array<ArrayBuffer> {
   const groups = last.length;

@@ -1,5 +1,5 @@
 import { FILM_CHUNK, type SampleRanges } from '../schedule/sample-range';
-import { readFilmState } from './compose';
+import { composeInPlace, readFilmState } from './compose';
 import { sumLengths } from './film-check';
 import {
   broken,
@@ -111,6 +111,15 @@ async function of<T>(source: FilmSource, run: () => T | Promise<T>): Promise<T> 
   }
 }
 
+/** How {@link mergeFilmSources} adds films up. */
+export interface MergeOptions {
+  /**
+   * Whether the image is all that is wanted: `sums.beauty` of the result is that of the whole merge, and its other sums
+   * may have no elements, which takes half the memory. Such a film cannot be resumed, saved or merged. Default: false.
+   */
+  readonly imageOnly?: boolean;
+}
+
 /**
  * `mergeFilmStates` of films in files: the same bits, while the files are read, so that memory holds the result alone.
  * Films that have parts of chunks, whose samples do not begin at multiples of 16, are decoded first.
@@ -118,11 +127,14 @@ async function of<T>(source: FilmSource, run: () => T | Promise<T>): Promise<T> 
  * @param sources At least one.
  * @throws {RenderError} `renderer/film-state`, as `mergeFilmStates` and `decodeFilmState`
  */
-export async function mergeFilmSources(sources: readonly FilmSource[]): Promise<FilmState> {
+export async function mergeFilmSources(
+  sources: readonly FilmSource[],
+  { imageOnly = false }: MergeOptions = {},
+): Promise<FilmState> {
   const readers: FilmReader[] = [];
   for (const source of sources) readers.push(await of(source, () => FilmReader.open(source)));
   try {
-    return await mergeReaders(readers);
+    return await mergeReaders(readers, imageOnly);
   } catch (error) {
     // What a damaged film says of itself does not count.
     for (const reader of readers) await of(reader.source, () => reader.check());
@@ -130,14 +142,14 @@ export async function mergeFilmSources(sources: readonly FilmSource[]): Promise<
   }
 }
 
-async function mergeReaders(readers: readonly FilmReader[]): Promise<FilmState> {
+async function mergeReaders(readers: readonly FilmReader[], imageOnly: boolean): Promise<FilmState> {
   const sorted = readers
     .filter(({ head }) => head.samples > 0)
     .sort((a, b) => (a.head.ranges[0]?.[0] as number) - (b.head.ranges[0]?.[0] as number));
   for (const { head } of readers) checkSampling({ ...head, tiles: head.tiles < 0 ? undefined : head.tiles });
   for (const { head } of readers) checkSame(head, (readers[0] as FilmReader).head);
   const plan = sorted.length > 1 && sorted.length === readers.length ? planOf(sorted) : undefined;
-  if (plan) return merged(sorted, plan);
+  if (plan) return merged(sorted, plan, imageOnly);
   const films: FilmState[] = [];
   for (const reader of readers) films.push(await of(reader.source, () => reader.whole()));
   return mergeFilmStates(films);
@@ -162,15 +174,28 @@ function planOf(readers: readonly FilmReader[]): MergePlan | undefined {
   return simple ? { ranges, end, open: open[0] } : undefined;
 }
 
-async function merged(readers: readonly FilmReader[], { ranges, end, open }: MergePlan): Promise<FilmState> {
+async function merged(
+  readers: readonly FilmReader[],
+  { ranges, end, open }: MergePlan,
+  imageOnly: boolean,
+): Promise<FilmState> {
   const [{ head: model }] = readers as [FilmReader];
   const lengths = sumLengths(model);
+  const [weight, ...others] = model.weights.last;
+  // The image of one light group is made of the sums where they are.
+  const inPlace = imageOnly && weight !== undefined && others.length === 0 && model.lightPasses === 1;
   for (const reader of readers) await pass([reader], reader.head.counts, () => undefined);
   const sums = {} as Record<(typeof FILM_SUMS)[number], Float32Array<ArrayBuffer>>;
   for (const name of FILM_SUMS) {
     const having = readers.filter((reader) => reader.has(name));
     if (name === 'beauty') {
       await pass(having, lengths[name], () => undefined);
+      continue;
+    }
+    if (name === 'film_moment' && inPlace) {
+      const { film_total: total, film_block: block } = sums;
+      if (having.length === 0) total.fill(0);
+      await pass(having, lengths[name], (moments, at) => composeInPlace(total, block, weight, moments, at));
       continue;
     }
     const out = (sums[name] = new Float32Array(lengths[name]));
@@ -196,7 +221,9 @@ async function merged(readers: readonly FilmReader[], { ranges, end, open }: Mer
     sampling: samplingTo(end, model.counts),
     sums: { ...sums, beauty: new Float32Array(0) },
   };
-  return { ...film, sums: { ...sums, beauty: readFilmState(film, 'beauty') } };
+  if (!inPlace) return { ...film, sums: { ...sums, beauty: readFilmState(film, 'beauty') } };
+  const none = new Float32Array(0);
+  return { ...film, sums: { film_block: none, film_total: none, film_moment: none, beauty: sums.film_total } };
 }
 
 /** Reads as many floats of each film, and calls back with those of all films, while the next ones are read. */

@@ -252,7 +252,7 @@ export class FilmSession {
   }
 
   /** See `PathTracer.saveFilm`. */
-  async save(): Promise<FilmState> {
+  async save(beauty = true): Promise<FilmState> {
     const { device, integrator, fingerprint } = this.#host;
     // All copies are submitted in one turn, behind the batches that the sampling counts as given out.
     const sampling = (this.#sampling ??= this.#newSampling()).state;
@@ -265,7 +265,7 @@ export class FilmSession {
     const [counters, part, ...sums] = await Promise.all([
       readBuffer(device, integrator.queues, COUNTERS),
       this.reader.head(sampling.sample),
-      ...this.reader.copy(...FILM_SUMS),
+      ...this.reader.copy(...FILM_SUMS.slice(0, beauty ? 4 : 3)),
     ]);
     this.#count(counters);
     const end = Math.max(
@@ -273,7 +273,9 @@ export class FilmSession {
       sampling.tiles ? sampling.counts.reduce((max, count) => Math.max(max, count), 0) : 0,
     );
     const parts = part ? [{ chunk: Math.floor(first / FILM_CHUNK), sums: part }] : [];
-    const named = Object.fromEntries(FILM_SUMS.map((name, i) => [name, sums[i]])) as unknown as FilmState['sums'];
+    const named = Object.fromEntries(
+      FILM_SUMS.map((name, i) => [name, sums[i] ?? new Float32Array(4 * width * height)]),
+    ) as FilmState['sums'];
     return { ...head, samples: end - first, ranges: [[first, end]], badSamples: this.#badSamples, parts, sums: named };
   }
 

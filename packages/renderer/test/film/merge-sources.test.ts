@@ -87,6 +87,25 @@ describe('films that are merged while they are read', () => {
     const expected = mergeFilmStates(films);
     expect(merged).toEqual(expected);
     expect(Buffer.compare(encodeFilmState(merged), encodeFilmState(expected))).toBe(0);
+    // The image alone is the same, with less memory where it is made in place.
+    const { sums, ...rest } = await mergeFilmSources(
+      films.map((film) => sourceOf(film).source),
+      { imageOnly: true },
+    );
+    expect({ ...rest, sums: expected.sums }).toEqual(expected);
+    expect(Buffer.compare(Buffer.from(sums.beauty.buffer), Buffer.from(expected.sums.beauty.buffer))).toBe(0);
+  });
+
+  it('for their image alone: without the sums that it is made of', async () => {
+    const films = [0, 1].map((i) => filmOf(16 * i, 16 * i + 16, { width: 90_000 }));
+    const { sums } = await mergeFilmSources(
+      films.map((film) => sourceOf(film, false).source),
+      { imageOnly: true },
+    );
+    expect([sums.film_block.length, sums.film_total.length, sums.film_moment.length]).toEqual([0, 0, 0]);
+    expect(
+      Buffer.compare(Buffer.from(sums.beauty.buffer), Buffer.from(mergeFilmStates(films).sums.beauty.buffer)),
+    ).toBe(0);
   });
 
   it('without their beauty, which the result has', async () => {

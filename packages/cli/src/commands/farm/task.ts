@@ -152,6 +152,7 @@ async function renderInto(
         info: made.info,
       },
       made.files,
+      made.hashes,
     );
     await store.dropCheckpoint(job.id);
     return await store.result(job.id);

@@ -165,11 +165,16 @@ export class S3Store implements FarmStore {
     return this.#local.begin(id);
   }
 
-  async commit(folder: string, result: Omit<JobResult, 'files'>, names: readonly string[]): Promise<boolean> {
+  async commit(
+    folder: string,
+    result: Omit<JobResult, 'files'>,
+    names: readonly string[],
+    hashes: Readonly<Record<string, string>> = {},
+  ): Promise<boolean> {
     const files: JobResult['files'][number][] = [];
     for (const name of names) {
       const path = join(folder, name);
-      const sha256 = await hashFile(path);
+      const sha256 = hashes[name] ?? (await hashFile(path));
       files.push({ name, bytes: (await stat(path)).size, sha256 });
       const object = this.#local.objectPath(sha256);
       await mkdir(dirname(object), { recursive: true });
