@@ -40,36 +40,33 @@ describe('pngFile', () => {
     expect(Buffer.compare(raw, Buffer.from(codes.buffer))).toBe(0);
   });
 
-  it.each([8, 16] as const)(
-    '%i bits, large: threads write the bytes that one writes',
-    async (bits) => {
-      const folder = await mkdtemp(join(tmpdir(), 'glanz-png-'));
-      const script = join(folder, 'png-worker.mjs');
-      const bundle = (await build({
-        entryPoints: [fileURLToPath(new URL('../src/output/png-worker.ts', import.meta.url))],
-        outfile: script,
-        bundle: true,
-        platform: 'node',
-        format: 'esm',
-        conditions: ['@glanz/source'],
-        plugins: [weslSource()],
-      })) as { errors: readonly unknown[] };
-      expect(bundle.errors).toEqual([]);
-      const { width, height } = image(2100, 2000);
-      const opaque = { ...DISPLAY, transparent: false };
-      const threads = vi.spyOn(Worker.prototype, 'postMessage').mockClear();
-      const png = await pngFile(image(width, height), bits, opaque, script);
-      const bands = threads.mock.calls.length;
-      expect(bands).toBe(Math.ceil(height / Math.floor(2 ** 22 / (width * 3 * (bits / 8)))));
-      // Without a script there are no threads.
-      const alone = await pngFile(image(width, height), bits, opaque, join(folder, 'absent.mjs'));
-      expect(threads.mock.calls.length).toBe(bands);
-      expect(Buffer.compare(png, alone)).toBe(0);
-      expect(await sharp(png).metadata()).toMatchObject({ width, height, channels: 3 });
-      await rm(folder, { recursive: true });
-    },
-    60_000,
-  );
+  it('large: threads write the bytes that one writes', async () => {
+    const bits = 16;
+    const folder = await mkdtemp(join(tmpdir(), 'glanz-png-'));
+    const script = join(folder, 'png-worker.mjs');
+    const bundle = (await build({
+      entryPoints: [fileURLToPath(new URL('../src/output/png-worker.ts', import.meta.url))],
+      outfile: script,
+      bundle: true,
+      platform: 'node',
+      format: 'esm',
+      conditions: ['@glanz/source'],
+      plugins: [weslSource()],
+    })) as { errors: readonly unknown[] };
+    expect(bundle.errors).toEqual([]);
+    const { width, height } = image(2100, 2000);
+    const opaque = { ...DISPLAY, transparent: false };
+    const threads = vi.spyOn(Worker.prototype, 'postMessage').mockClear();
+    const png = await pngFile(image(width, height), bits, opaque, script);
+    const bands = threads.mock.calls.length;
+    expect(bands).toBe(Math.ceil(height / Math.floor(2 ** 22 / (width * 3 * (bits / 8)))));
+    // Without a script there are no threads.
+    const alone = await pngFile(image(width, height), bits, opaque, join(folder, 'absent.mjs'));
+    expect(threads.mock.calls.length).toBe(bands);
+    expect(Buffer.compare(png, alone)).toBe(0);
+    expect(await sharp(png).metadata()).toMatchObject({ width, height, channels: 3 });
+    await rm(folder, { recursive: true });
+  }, 60_000);
 
   it('a thread that ends without an answer is an error, not a wait without end', async () => {
     const folder = await mkdtemp(join(tmpdir(), 'glanz-png-'));

@@ -74,6 +74,18 @@ describe('results', () => {
     });
   });
 
+  it('have the hashes that are known from writing their files, and are hashed otherwise', async () => {
+    const store = new FolderStore(join(temporaryFolder(), 'store'));
+    const folder = await store.begin(ID);
+    for (const name of ['a.film', 'b.png']) writeFileSync(join(folder, name), name);
+    const known = 'f'.repeat(64);
+    expect(await store.commit(folder, meta, ['a.film', 'b.png'], { 'a.film': known })).toBe(true);
+    expect((await store.result(ID))?.files.map(({ sha256 }) => sha256)).toEqual([
+      known,
+      createHash('sha256').update('b.png').digest('hex'),
+    ]);
+  });
+
   it('without one of its files there is none, and the job can be done again', async () => {
     const store = await withResult('first');
     rmSync(join(store.resultFolder(ID), 'a.txt'));
