@@ -29,7 +29,7 @@ const ask = (worker: Worker, band: LinearBand): Promise<PngBand> =>
  * @param count How many they are.
  * @param band Copies the pixels of one.
  * @param file The script of the threads.
- * @returns The bands in their order, the same bytes whoever makes them; `undefined` where there are no threads.
+ * @returns The bands in their order, the same bytes as of one thread; `undefined` where there are no threads.
  */
 export async function bandsOnThreads(
   count: number,
