@@ -1,7 +1,7 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
-// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, animations, a ground, guiding), and
-// what saves images and films, lies beside it and is fetched by import() when it is needed.
+// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, animations, a ground, guiding, noise targets), and
+// what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -40,7 +40,7 @@ const LATER = {
   './guide-kernels': 'glanz-viewer.guide-kernels.min.js',
   './soft-shadows': 'glanz-viewer.soft-shadows.min.js',
   './session/guide-training': 'glanz-viewer.guide.min.js',
-  '../film/film-data': 'glanz-viewer.film.min.js',
+  './film-kernels': 'glanz-viewer.film-kernels.min.js',
 };
 
 /** Where the modules of the sources among them are, from the viewer's folder. */
@@ -56,7 +56,7 @@ const SOURCES = {
   './guide-kernels': '../renderer/src/integrator/guide-kernels',
   './soft-shadows': '../renderer/src/integrator/soft-shadows',
   './session/guide-training': '../renderer/src/session/guide-training',
-  '../film/film-data': '../renderer/src/film/film-data',
+  './film-kernels': '../renderer/src/integrator/film-kernels',
 };
 
 const pick = (...modules) => Object.fromEntries(modules.map((module) => [module, LATER[module]]));
@@ -144,7 +144,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|session\/guide-training)$|\.\.\/film\/film-data$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

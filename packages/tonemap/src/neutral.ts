@@ -34,23 +34,16 @@ export const tonemapNeutral = wgslModule(
 
 /** CPU twin of {@link tonemapNeutral}. @param out Becomes the result: images have tens of millions of pixels. */
 export function neutralToneMap(rgb: Rgb, out: [number, number, number] = [0, 0, 0]): [number, number, number] {
-  const r = finiteNumber(rgb[0]);
-  const g = finiteNumber(rgb[1]);
-  const b = finiteNumber(rgb[2]);
-  const x = Math.min(r, g, b);
+  for (let k = 0; k < 3; k++) out[k] = finiteNumber(rgb[k] as number);
+  const x = Math.min(out[0], out[1], out[2]);
   const offset = x <= 2 * F90 ? x - (x * x) / (4 * F90) : F90;
-  const peak = Math.max(r, g, b) - offset;
-  if (peak <= START) {
-    out[0] = r - offset;
-    out[1] = g - offset;
-    out[2] = b - offset;
-    return out;
-  }
+  const peak = Math.max(out[0], out[1], out[2]) - offset;
   const compressed = 1 - (1 - START) ** 2 / (peak + 1 - 2 * START);
   const keep = 1 / (DESATURATION * (peak - compressed) + 1);
-  // Not in a function of a component, which would be a new one for each pixel.
-  out[0] = compressed + ((r - offset) / peak - 1) * compressed * keep;
-  out[1] = compressed + ((g - offset) / peak - 1) * compressed * keep;
-  out[2] = compressed + ((b - offset) / peak - 1) * compressed * keep;
+  // Not a function of a component, which would be a new one for each pixel.
+  for (let k = 0; k < 3; k++) {
+    const v = (out[k] as number) - offset;
+    out[k] = peak <= START ? v : compressed + (v / peak - 1) * compressed * keep;
+  }
   return out;
 }

@@ -103,13 +103,9 @@ export function toneMapPixels<O extends keyof Outputs = 'uint8'>(
     const coverage = rgba[i + 3] as number;
     const alpha = straight ? (coverage > 0 ? Math.min(coverage, 1) : 0) : 1;
     const scale = alpha > 0 ? exposure / alpha : 0;
-    linear[0] = (rgba[i] as number) * scale;
-    linear[1] = (rgba[i + 1] as number) * scale;
-    linear[2] = (rgba[i + 2] as number) * scale;
+    for (let k = 0; k < 3; k++) linear[k] = (rgba[i + k] as number) * scale;
     const mapped = map(linear, linear);
-    out[i] = encode(mapped[0]);
-    out[i + 1] = encode(mapped[1]);
-    out[i + 2] = encode(mapped[2]);
+    for (let k = 0; k < 3; k++) out[i + k] = encode(mapped[k] as number);
     out[i + 3] = store(alpha);
   }
   return out as Outputs[O];

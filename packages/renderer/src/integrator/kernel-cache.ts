@@ -97,7 +97,7 @@ export class KernelCache {
   /** One kernel. What is not needed for the first image is loaded first. @param parts See {@link kernelSource}. */
   async kernel(name: KernelName, features: KernelFeatures, parts?: KernelParts): Promise<Kernel> {
     if (name === 'noise' || name === 'relight' || name === 'variance')
-      parts = { root: (await import('../film/film-data')).FILM_KERNELS[name] };
+      parts = { root: (await import('./film-kernels')).FILM_KERNELS[name] };
     if (name === 'shade' && features.flags.GUIDE) parts = (await import('./guide-kernels')).GUIDED_SHADE;
     if (name === 'shade' && features.flags.SHADOW_SOFTNESS) parts = (await import('./soft-shadows')).softened(parts);
     const source = kernelSource(name, features, parts);

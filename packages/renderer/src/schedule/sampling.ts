@@ -1,4 +1,4 @@
-import { FIRST_CHECK, nextCheck, noiseMap, noisyTiles, samplesLeft, TileGrid } from './adaptive';
+import { FIRST_CHECK, nextCheck, TileGrid } from './adaptive';
 import type { RenderProgress } from '../options';
 import { renderLoop, type RenderLoop } from './render-loop';
 import { Scheduler } from './scheduler';
@@ -141,6 +141,7 @@ export class Sampling {
       this.#settle();
       let tiles: readonly number[] = [...this.#counts.keys()];
       if (goal.noise !== undefined && this.#counts.every((count) => count >= FIRST_CHECK)) {
+        const { noiseMap, noisyTiles, samplesLeft } = await import('./noise-target');
         const map = noiseMap(await this.#host.measure());
         if (!goal.current()) return;
         tiles = noisyTiles(map.tiles, this.#grid.columns, goal.noise);
@@ -152,6 +153,7 @@ export class Sampling {
           goal.samples,
           (tile) => this.#counts[tile] as number,
           (tile) => this.#grid.pixelsIn(tile),
+          nextCheck,
         );
       }
       tiles = tiles.filter((tile) => (this.#counts[tile] as number) < goal.samples);

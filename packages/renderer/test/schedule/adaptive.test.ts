@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { nextCheck, noiseMap, noisyTiles, samplesLeft, TileGrid } from '../../src/schedule/adaptive';
+import { nextCheck, TileGrid } from '../../src/schedule/adaptive';
+import { noiseMap, noisyTiles, samplesLeft } from '../../src/schedule/noise-target';
 
 describe('nextCheck', () => {
   it('looks four times an octave at most, at whole chunks of 16 samples', () => {
@@ -47,6 +48,7 @@ describe('samplesLeft', () => {
         max,
         () => 64,
         () => 10,
+        nextCheck,
       );
     expect(left(0.02)).toBe((256 - 64) * 10);
     expect(left(0.03)).toBe((768 - 64) * 10);
