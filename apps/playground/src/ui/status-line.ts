@@ -50,18 +50,15 @@ export class StatusLine {
         ? ''
         : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the image not converged` : ''}`;
     const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(remainingMs)} left` : '';
-    const texts = {
-      empty: '',
-      loading: '',
+    // Other states have none.
+    const texts: Partial<Record<typeof state, string>> = {
       moving: 'Preview',
-      hidden: '',
-      destroyed: '',
       rendering: count + left + calm,
       paused: `${count} · paused`,
       done: `${samples} sample${samples > 1 ? 's' : ''} · done${how}${calm}`,
       recovering: 'Waiting for the GPU',
       failed: 'Stopped',
     };
-    this.#text.textContent = texts[state];
+    this.#text.textContent = texts[state] ?? '';
   }
 }
