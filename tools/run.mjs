@@ -55,6 +55,10 @@ const tasks = {
     help: 'bundle the gallery for bare GPU machines into .gallery-bench/',
     run: (args) => node(join(root, 'tools/gallery/src/pack.mjs'), args),
   },
+  reference: {
+    help: 'estimate the references of the glass scenes by brute force: npm run reference -- NAME',
+    run: (args) => node(join(root, 'tools/reference/src/main.mjs'), args, { cwd: userFolder() }),
+  },
   newcomer: {
     help: "a newcomer's first minutes, timed: packed packages, a fresh project, the README's quick start, pixels",
     build: true,

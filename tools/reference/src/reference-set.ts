@@ -3,7 +3,8 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { decodeExr, decodeHdr, type ExrImage } from '@glanz/image';
 import { loadGltfFile, type GltfOptions } from '@glanz/gltf/node';
-import type { Environment, Material, PerspectiveCamera, Scene } from '@glanz/scene';
+import type { Environment, Material, Scene } from '@glanz/scene';
+import { lookAt } from './camera';
 import { ReferenceError } from './error';
 
 type Vector = readonly [number, number, number];
@@ -88,31 +89,6 @@ function rgbOf({ width, height, channels }: ExrImage, file: string, layer: strin
 function floats(file: string): Float32Array {
   const bytes = readFileSync(file);
   return new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-}
-
-function lookAt(camera: SceneDescription['camera']): PerspectiveCamera {
-  const subtract = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-  const cross = (a: Vector, b: Vector): Vector => [
-    a[1] * b[2] - a[2] * b[1],
-    a[2] * b[0] - a[0] * b[2],
-    a[0] * b[1] - a[1] * b[0],
-  ];
-  const unit = (a: Vector): Vector => {
-    const length = Math.hypot(...a);
-    return [a[0] / length, a[1] / length, a[2] / length];
-  };
-  const z = unit(subtract(camera.position, camera.target));
-  const x = unit(cross(camera.up, z));
-  const y = cross(z, x);
-  return {
-    type: 'perspective',
-    name: 'reference',
-    transform: [...x, 0, ...y, 0, ...z, 0, ...camera.position, 1],
-    yfov: (camera.yfov_deg * Math.PI) / 180,
-    aspect: 1,
-    lens_radius: camera.lens_radius,
-    focus_distance: camera.focus_distance,
-  };
 }
 
 /** What the reference set says about a material beyond glTF. */
