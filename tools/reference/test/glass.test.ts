@@ -1,34 +1,14 @@
-import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
-import type { Material } from '@glanz/scene';
-import { afterEach, describe, expect, it } from 'vitest';
+import { describe, expect, it } from 'vitest';
 import { compareEstimates, type Agreement } from '../src/estimator/agreement';
 import { estimate, uniforms, type Estimate } from '../src/estimator/estimate';
 import { readGlassReference } from '../src/estimator/glass-reference';
-import { GLASS_SCENES, glassScene, type GlassScene, type GlassSceneName } from '../src/estimator/glass-scenes';
-import { renderGlass } from '../src/estimator/render-glass';
-
-afterEach(expectNoGpuErrors);
-
-const SAMPLES = process.env['GLANZ_FULL'] === undefined ? 256 : 2048;
+import { GLASS_SCENES, glassScene } from '../src/estimator/glass-scenes';
 
 const failures = ({ checks }: Agreement): string =>
   checks
     .filter(({ passed }) => !passed)
     .map(({ name, value, limit }) => `${name}: ${value.toFixed(2)} > ${limit.toFixed(2)}`)
     .join('; ');
-
-/** A glass scene with other parameters of one of its materials. */
-function changed(
-  name: GlassSceneName,
-  material: string,
-  change: Partial<Material> & Pick<Material, 'parameters'>,
-): GlassScene {
-  const made = glassScene(name);
-  const at = made.scene.materials.findIndex((one) => one.name === material);
-  const before = made.scene.materials[at]!;
-  made.scene.materials[at] = { ...before, ...change, parameters: { ...before.parameters, ...change.parameters } };
-  return made;
-}
 
 describe('references of glass', () => {
   it.each(GLASS_SCENES)('%s: what is stored is what the estimator gives with another seed', (name) => {
@@ -37,28 +17,6 @@ describe('references of glass', () => {
     expect(info.maxDepth).toBe(how.maxDepth);
     expect(info.seed).not.toBe(9);
     expect(failures(compareEstimates(estimate(scene, { ...how, samples: 32, seed: 9 }), image, how))).toBe('');
-  });
-
-  it.each(GLASS_SCENES)('%s: the renderer agrees within the standard errors', async (name) => {
-    const made = glassScene(name);
-    const { image } = readGlassReference(name);
-    const agreement = compareEstimates(await renderGlass(await testDevice(), made, { samples: SAMPLES }), image, made);
-    expect(failures(agreement)).toBe('');
-    // Small enough that an error of a few per cent is seen.
-    for (const error of agreement.error) expect(error).toBeLessThan(0.01);
-  });
-
-  // The same comparison must see what is wrong.
-  it.each<[GlassSceneName, string, string, Partial<Material> & Pick<Material, 'parameters'>]>([
-    ['window', 'solid panes that absorb nothing', 'solid pane', { parameters: { transmission_color: [1, 1, 1] } }],
-    ['bottle', 'a liquid that bends light as glass does', 'liquid', { parameters: { specular_ior: 1.5 } }],
-    ['bottle', 'a liquid that is there instead of the glass', 'liquid', { parameters: {}, dielectric_priority: 2 }],
-    ['gem', 'light of all wavelengths bent alike', 'gem', { parameters: { transmission_dispersion_abbe_number: 1e6 } }],
-  ])('%s: %s does not agree', async (name, _, material, change) => {
-    const made = changed(name, material, change);
-    const { image } = readGlassReference(name);
-    const agreement = compareEstimates(await renderGlass(await testDevice(), made, { samples: SAMPLES }), image, made);
-    expect(agreement.agrees).toBe(false);
   });
 });
 
@@ -75,7 +33,7 @@ describe('compareEstimates', () => {
   const compared = (change: (image: Estimate) => void): Agreement => {
     const image = noisy(0.05, 1);
     change(image);
-    return compareEstimates(image, noisy(0.03, 2), size);
+    return compareEstimates(image, noisy(0.01, 2), size);
   };
 
   it('accepts two images whose noise is as they say, whatever the seeds', () => {

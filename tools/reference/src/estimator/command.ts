@@ -5,8 +5,8 @@ import { GLASS_SCENES, glassScene, type GlassSceneName } from './glass-scenes';
 
 const HELP = `npm run reference -- [NAME…] [--samples N] [--seed N] [--out FOLDER]
 
-Estimates the references of the glass scenes (${GLASS_SCENES.join(', ')}; default all) by brute force on the CPU, some
-minutes each, and writes them into tools/reference/glass or FOLDER. Defaults: 1024 samples per pixel, seed 1.
+Estimates the references of the glass scenes (${GLASS_SCENES.join(', ')}; default all) by brute force on the CPU, up to
+a minute each, and writes them into tools/reference/glass or FOLDER. Defaults: 256 samples per pixel, seed 1.
 `;
 
 /** The command `npm run reference`. @returns The exit code. */
@@ -15,7 +15,7 @@ export function referenceCommand(args: readonly string[]): number {
     args: [...args],
     allowPositionals: true,
     options: {
-      samples: { type: 'string', default: '1024' },
+      samples: { type: 'string', default: '256' },
       seed: { type: 'string', default: '1' },
       out: { type: 'string' },
       help: { type: 'boolean', default: false },
