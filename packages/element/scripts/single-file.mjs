@@ -1,7 +1,7 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
-// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, animations, a ground, guiding, noise targets), and
-// what saves images, lies beside it and is fetched by import() when it is needed.
+// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, arrays beyond a binding,
+// animations, a ground, guiding, noise targets), and what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -39,6 +39,8 @@ const LATER = {
   './gpu-trees': 'glanz-viewer.gpu-trees.min.js',
   './guide-kernels': 'glanz-viewer.guide-kernels.min.js',
   './soft-shadows': 'glanz-viewer.soft-shadows.min.js',
+  './paged/pages': 'glanz-viewer.pages.min.js',
+  './paged-kernels': 'glanz-viewer.paged-kernels.min.js',
   './session/guide-training': 'glanz-viewer.guide.min.js',
   './film-kernels': 'glanz-viewer.film-kernels.min.js',
 };
@@ -55,6 +57,8 @@ const SOURCES = {
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
   './guide-kernels': '../renderer/src/integrator/guide-kernels',
   './soft-shadows': '../renderer/src/integrator/soft-shadows',
+  './paged/pages': '../renderer/src/storage/paged/pages',
+  './paged-kernels': '../renderer/src/integrator/paged-kernels',
   './session/guide-training': '../renderer/src/session/guide-training',
   './film-kernels': '../renderer/src/integrator/film-kernels',
 };
@@ -144,7 +148,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|paged\/pages|paged-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

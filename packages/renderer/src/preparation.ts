@@ -8,7 +8,7 @@ import { environmentSteps, type EnvironmentData } from './environment/environmen
 import { RenderError } from './errors';
 import { aovBuffers, aovFlags } from './film/aovs';
 import { Film } from './film/film';
-import { prepareGeometry, type Geometry } from './geometry/geometry';
+import { prepareGeometry, shapeBytes, type Geometry } from './geometry/geometry';
 import type { HierarchyOptions } from './geometry/hierarchies';
 import { isShown } from './geometry/placement';
 import { Integrator } from './integrator/integrator';
@@ -26,13 +26,17 @@ import { stageOf, type AnyStage } from './schedule/stages';
 import { showFirstLight } from './session/first-light';
 import { packFrame } from './session/frame';
 import { GpuMemory } from './storage/buffers';
+import type { Pages } from './storage/paged/pages';
 import { readFloats } from './storage/read-buffer';
+import { choosePages } from './storage/choose-pages';
 
 /** What the stages of a preparation make. */
 export interface Products {
   /** The scene that belongs to the tracer, validated. */
   readonly scene: Scene;
   readonly camera: Camera;
+  /** Arrays that will probably be too large for buffers. */
+  readonly pages: Pages | undefined;
   /** What the kernels' text will probably depend on, before the shapes are known. */
   readonly expected: KernelFeatures;
   /** The driver compiles the expected kernels. */
@@ -102,6 +106,13 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
     },
   }),
   stage({
+    name: 'pages',
+    needs: ['scene'],
+    place: 'foreground',
+    // What cannot fit is refused here, before anything is built.
+    run: ({ scene }) => choosePages(device, shapeBytes(scene)),
+  }),
+  stage({
     name: 'camera',
     needs: ['scene'],
     place: 'foreground',
@@ -121,9 +132,10 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
   }),
   stage({
     name: 'expected',
-    needs: ['scene', 'camera'],
+    needs: ['scene', 'camera', 'pages'],
     place: 'foreground',
-    run: ({ scene, camera }) => kernelFeatures(expectedFeatures(device, scene, options), camera, options),
+    run: ({ scene, camera, pages }) =>
+      kernelFeatures(expectedFeatures(device, scene, { ...options, pages }), camera, options),
   }),
   stage({
     name: 'request',
@@ -144,7 +156,7 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
   return [
     stage({
       name: 'geometry',
-      needs: ['scene'],
+      needs: ['scene', 'pages'],
       place: builders.hierarchies || builders.gpu ? 'elsewhere' : 'foreground',
       run({ scene }, { signal }) {
         onProgress?.({ stage: 'bvh', done: 0 });
@@ -158,10 +170,11 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
       place: 'foreground',
       async run({ scene, geometry }, { signal }) {
         onProgress?.({ stage: 'upload', done: 0 });
+        const pages = await choosePages(device, shapeBytes(scene, geometry));
         const shapes = await withErrorScopes(
           device,
           'the shapes and textures of this scene',
-          () => new GpuScene(device, memory, scene, geometry, options),
+          () => new GpuScene(device, memory, scene, geometry, { ...options, pages }),
         );
         await shapes.fill(signal);
         return shapes;

@@ -1,10 +1,11 @@
 import { packTriangles } from '@glanz/bvh';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
-import { INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../storage/layout';
-import { createYielder, buildHierarchies, type HierarchyOptions } from './hierarchies';
+import { bindingStruct, INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../storage/layout';
+import { createYielder, buildHierarchies, trianglesOf, type HierarchyOptions } from './hierarchies';
 import type { Hierarchy, MeshRegion } from './hierarchy';
-import { isShown, Placement } from './placement';
+import type { ShapeArray, ShapeBytes } from '../storage/shape-arrays';
+import { isShown, joinedRanges, Placement } from './placement';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
@@ -24,15 +25,6 @@ export interface Geometry {
   /** Words of the mesh table and of all attributes. */
   readonly attributeWords: number;
   readonly hasVertexColors: boolean;
-}
-
-/** Shapes as the kernels read them. */
-export interface PackedGeometry {
-  /** Upper levels first, then the nodes of each mesh in use. */
-  readonly nodes: Float32Array<ArrayBuffer>;
-  readonly triangles: Float32Array<ArrayBuffer>;
-  /** Mesh table, then vertex attributes. Texture binding records follow. */
-  readonly attributes: Uint32Array<ArrayBuffer>;
 }
 
 /** Meshes that visible instances use, in order. */
@@ -129,13 +121,37 @@ export async function prepareGeometry(scene: Scene, options: HierarchyOptions = 
   return layOutGeometry(scene, await prepareHierarchies(scene, options));
 }
 
+/** What hierarchies will have, about, as if all meshes were visible: two triangles a node. */
+function expectedShapes({ meshes }: Scene): Pick<Geometry, 'nodeCount' | 'triangleCount' | 'attributeWords'> {
+  const triangleCount = trianglesOf(meshes);
+  const words = meshes.reduce((sum, mesh) => sum + attributeWords(mesh), 0);
+  return { nodeCount: triangleCount / 2, triangleCount, attributeWords: words };
+}
+
+/**
+ * Bytes that a scene's shapes take, with the bindings of its textures.
+ *
+ * @param geometry Where there are no hierarchies yet: about as much.
+ */
+export function shapeBytes(
+  scene: Scene,
+  geometry: ReturnType<typeof expectedShapes> = expectedShapes(scene),
+): ShapeBytes {
+  const bindings = scene.materials.flatMap(({ textures = {} }) => Object.keys(textures)).length;
+  return {
+    nodes: 4 * geometry.nodeCount * NODE_WORDS,
+    triangles: 4 * geometry.triangleCount * TRIANGLE_WORDS,
+    attributes: 4 * geometry.attributeWords + bindings * bindingStruct.size,
+  };
+}
+
 /** Bytes and triangles that are written at once: a millisecond or two of work. */
 const SLICE_BYTES = 1 << 20;
 const SLICE_TRIANGLES = 1 << 14;
 
 /** A part of one of the buffers of shapes. */
 export interface ShapeSlice {
-  readonly buffer: keyof PackedGeometry;
+  readonly buffer: ShapeArray;
   /** Where in the buffer, in bytes. */
   readonly offset: number;
   readonly data: ArrayBufferView<ArrayBuffer>;
@@ -159,9 +175,8 @@ function* slicesOf(
 }
 
 /**
- * Shapes for the GPU, slice by slice: what {@link packGeometry} gives as a whole, without ever holding it. Slices are
- * to be written or copied before the next is asked for. Of a mesh whose hierarchy is on the GPU, they lack what
- * `HierarchyOnGpu.place` copies.
+ * Shapes for the GPU, slice by slice: upper levels, mesh table, then the nodes, triangles and attributes of each mesh.
+ * Of a mesh whose hierarchy is on the GPU, they lack what `HierarchyOnGpu.place` copies.
  */
 export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeSlice> {
   for (const { first, nodes } of geometry.placement.allNodes()) yield* slicesOf('nodes', 4 * first * NODE_WORDS, nodes);
@@ -170,36 +185,54 @@ export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeS
     writeRecord(records, index * RECORD_WORDS, mesh, geometry.blas[index], geometry.regions[index] as MeshRegion),
   );
   yield* slicesOf('attributes', 0, records);
-  for (const [index, mesh] of scene.meshes.entries()) {
-    const region = geometry.regions[index] as MeshRegion;
-    const tree = geometry.blas[index];
-    if (!tree) continue;
-    const { positions, indices } = mesh;
-    // What is on the GPU already is copied there.
-    const { nodes } = tree;
-    if (nodes)
-      yield* slicesOf('nodes', 4 * region.firstNode * NODE_WORDS, nodes.subarray(0, region.nodes * NODE_WORDS));
-    for (let first = 0; nodes && first < tree.triangleIndices.length; first += SLICE_TRIANGLES) {
-      const data = packTriangles(
-        { triangleIndices: tree.triangleIndices.subarray(first, first + SLICE_TRIANGLES) },
-        { positions, indices },
-      );
-      yield { buffer: 'triangles', offset: 4 * (region.firstTriangle + first) * TRIANGLE_WORDS, data };
-    }
-    let word = region.firstWord;
-    for (const array of attributesOf(mesh)) {
-      if (!array) continue;
-      if (nodes || array !== indices) yield* slicesOf('attributes', 4 * word, array);
-      word += array.length;
-    }
+  for (const [index, mesh] of scene.meshes.entries())
+    yield* regionSlices(mesh, geometry.blas[index], geometry.regions[index] as MeshRegion);
+}
+
+/** What a region of a mesh holds. */
+function* regionSlices(
+  mesh: Mesh,
+  tree: Hierarchy | undefined,
+  { firstNode, firstTriangle, firstWord }: MeshRegion,
+): Generator<ShapeSlice> {
+  if (!tree) return;
+  const { positions, indices } = mesh;
+  // What is on the GPU already is copied there.
+  const { nodes, nodeCount, triangleIndices } = tree;
+  if (nodes) yield* slicesOf('nodes', 4 * firstNode * NODE_WORDS, nodes.subarray(0, nodeCount * NODE_WORDS));
+  for (let first = 0; nodes && first < triangleIndices.length; first += SLICE_TRIANGLES) {
+    const data = packTriangles(
+      { triangleIndices: triangleIndices.subarray(first, first + SLICE_TRIANGLES) },
+      { positions, indices },
+    );
+    yield { buffer: 'triangles', offset: 4 * (firstTriangle + first) * TRIANGLE_WORDS, data };
   }
+  let word = firstWord;
+  for (const array of attributesOf(mesh)) {
+    if (!array) continue;
+    if (nodes || array !== indices) yield* slicesOf('attributes', 4 * word, array);
+    word += array.length;
+  }
+}
+
+/** One mesh as the kernels read it: its row of the mesh table, and its region. Its hierarchy has nodes on the CPU. */
+export function* meshSlices(
+  index: number,
+  mesh: Mesh,
+  tree: Hierarchy | undefined,
+  region: MeshRegion,
+): Generator<ShapeSlice> {
+  const data = new Uint32Array(RECORD_WORDS);
+  writeRecord(data, 0, mesh, tree, region);
+  yield { buffer: 'attributes', offset: index * meshStruct.size, data };
+  yield* regionSlices(mesh, tree, region);
 }
 
 /** Slices up to so many bytes together are given as one. */
 const JOINED_BYTES = 1 << 18;
 
 /**
- * The same with fewer slices: those that follow each other in their buffer are joined while they are small, since each
+ * The same with fewer slices, to be written before the next is asked for: those that follow each other in their buffer are joined while they are small, since each
  * write costs more than the bytes of a small mesh.
  */
 export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice> {
@@ -227,29 +260,18 @@ export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice>
     if (bytes > 0) yield { buffer, offset, data: memory.subarray(0, bytes) };
 }
 
-/** Writes shapes for the GPU, yielding to the event loop now and then. All hierarchies have nodes on the CPU. */
-export async function packGeometry(scene: Scene, geometry: Geometry, signal?: AbortSignal): Promise<PackedGeometry> {
-  const packed = {
-    nodes: new Float32Array(geometry.nodeCount * NODE_WORDS),
-    triangles: new Float32Array(geometry.triangleCount * TRIANGLE_WORDS),
-    attributes: new Uint32Array(geometry.attributeWords),
-  };
+/**
+ * All slices of {@link shapeSlices}, made while yielding to the event loop now and then. All hierarchies have nodes on
+ * the CPU. The arrays of meshes and hierarchies are shared, not copied.
+ */
+export async function packGeometry(scene: Scene, geometry: Geometry): Promise<ShapeSlice[]> {
+  const slices: ShapeSlice[] = [];
   const yieldIfDue = createYielder();
-  for (const { buffer, offset, data } of shapeSlices(scene, geometry)) {
-    new Uint8Array(packed[buffer].buffer).set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), offset);
+  for (const slice of shapeSlices(scene, geometry)) {
+    slices.push(slice);
     await yieldIfDue();
-    signal?.throwIfAborted();
   }
-  return packed;
-}
-
-/** One mesh as the kernels read it. */
-export interface PackedMesh {
-  /** Its row of the mesh table. */
-  readonly record: Uint32Array<ArrayBuffer>;
-  readonly nodes: Float32Array<ArrayBuffer>;
-  readonly triangles: Float32Array<ArrayBuffer>;
-  readonly attributes: Uint32Array<ArrayBuffer>;
+  return slices;
 }
 
 const RECORD_WORDS = meshStruct.size / 4;
@@ -274,43 +296,12 @@ function writeRecord(
   });
 }
 
-/** Writes one mesh for its region. Its hierarchy, if it has one, has nodes on the CPU. */
-export function packMesh(mesh: Mesh, tree: Hierarchy | undefined, region: MeshRegion): PackedMesh {
-  const record = new Uint32Array(RECORD_WORDS);
-  writeRecord(record, 0, mesh, tree, region);
-  if (!tree?.nodes)
-    return { record, nodes: new Float32Array(), triangles: new Float32Array(), attributes: new Uint32Array() };
-  const attributes = new Uint32Array(attributeWords(mesh));
-  let at = 0;
-  for (const array of attributesOf(mesh)) {
-    if (!array) continue;
-    attributes.set(
-      array instanceof Uint32Array ? array : new Uint32Array(array.buffer, array.byteOffset, array.length),
-      at,
-    );
-    at += array.length;
-  }
-  return {
-    record,
-    nodes: tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS),
-    triangles: packTriangles(tree, { positions: mesh.positions, indices: mesh.indices }),
-    attributes,
-  };
-}
-
 /** Instance records up to so far apart are written at once, with those in between. */
 const JOINED_RECORDS = 8;
 
 /** Ranges of instances, from the first up to the second number, that hold those of `indices` and few others. */
-export function* instanceRanges(indices: readonly number[]): Generator<readonly [from: number, to: number]> {
-  const sorted = Uint32Array.from(indices).sort();
-  for (let i = 0; i < sorted.length;) {
-    const first = sorted[i++] as number;
-    let end = first + 1;
-    while (i < sorted.length && (sorted[i] as number) <= end + JOINED_RECORDS) end = (sorted[i++] as number) + 1;
-    yield [first, end];
-  }
-}
+export const instanceRanges = (indices: readonly number[]) =>
+  joinedRanges(Uint32Array.from(indices).sort(), JOINED_RECORDS);
 
 /** Writes the records of the scene's instances from `from` up to `to`. */
 export function packInstances(

@@ -3,7 +3,7 @@ import { blasInOrder, GpuBuilder } from '@glanz/bvh/gpu';
 import type { Mesh } from '@glanz/scene';
 import { inErrorScopes, lossOr, withErrorScopes } from '../device/error-scopes';
 import { DeviceError } from '../errors';
-import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE } from '../storage/buffers';
+import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type PagedArray } from '../storage/buffers';
 import { readBuffer } from '../storage/read-buffer';
 import { uploadPace } from '../storage/upload-pace';
 import type { GpuBuilds, Hierarchy, HierarchyOnGpu, MeshRegion } from './hierarchy';
@@ -155,26 +155,48 @@ function onGpu(
   own: Readonly<Record<'nodes' | 'triangles' | 'indices', GPUBuffer>>,
 ): HierarchyOnGpu {
   let queries: Blas | undefined;
-  let placed: { readonly nodes: GPUBuffer; readonly offset: number } | undefined;
+  let placed: { readonly nodes: GPUBuffer | PagedArray; readonly offset: number } | undefined;
   const free = () => {
     for (const buffer of Object.values(own)) memory.release(buffer);
   };
+  const readPages = async (pages: PagedArray, offset: number, bytes: number) => {
+    const what = 'reading back from it';
+    const usage = GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC;
+    const staging = await withErrorScopes(device, what, () => memory.buffer('read pages', bytes, usage));
+    try {
+      const encoder = device.createCommandEncoder({ label: 'glanz read pages' });
+      pages.copyTo(encoder, staging, offset, bytes);
+      device.queue.submit([encoder.finish()]);
+      return await readBuffer(device, staging, bytes);
+    } finally {
+      memory.release(staging);
+    }
+  };
   return {
-    place({ nodes, triangles, attributes }, { firstNode, firstTriangle, firstWord }: MeshRegion) {
+    place(arrayOf, { firstNode, firstTriangle, firstWord }: MeshRegion) {
       const encoder = device.createCommandEncoder({ label: 'glanz place' });
-      const copy = (from: GPUBuffer, to: GPUBuffer, offset: number, bytes: number) =>
-        encoder.copyBufferToBuffer(from, 0, to, offset, bytes);
+      const nodes = arrayOf('nodes');
+      const copy = (from: GPUBuffer, to: GPUBuffer | PagedArray, offset: number, bytes: number) =>
+        'view' in to
+          ? to.copyFrom(encoder, from, offset, bytes)
+          : encoder.copyBufferToBuffer(from, 0, to, offset, bytes);
       copy(own.nodes, nodes, NODE_BYTES * firstNode, NODE_BYTES * nodeCount);
-      copy(own.triangles, triangles, TRIANGLE_BYTES * firstTriangle, TRIANGLE_BYTES * triangleIndices.length);
+      copy(
+        own.triangles,
+        arrayOf('triangles'),
+        TRIANGLE_BYTES * firstTriangle,
+        TRIANGLE_BYTES * triangleIndices.length,
+      );
       // Indices are the first of a mesh's attributes.
-      copy(own.indices, attributes, WORD_BYTES * firstWord, mesh.indices.byteLength);
+      copy(own.indices, arrayOf('attributes'), WORD_BYTES * firstWord, mesh.indices.byteLength);
       device.queue.submit([encoder.finish()]);
       placed = { nodes, offset: NODE_BYTES * firstNode };
       free();
     },
     async read() {
       const { nodes, offset } = placed ?? { nodes: own.nodes, offset: 0 };
-      const data = await readBuffer(device, nodes, NODE_BYTES * nodeCount, offset);
+      const bytes = NODE_BYTES * nodeCount;
+      const data = await ('view' in nodes ? readPages(nodes, offset, bytes) : readBuffer(device, nodes, bytes, offset));
       if (!placed) free();
       return { nodes: new Float32Array(data), nodeCount, triangleIndices, bounds };
     },

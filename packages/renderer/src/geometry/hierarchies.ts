@@ -52,7 +52,9 @@ export function createYielder(sliceMs: number = SLICE_MS): () => Promise<void> {
 /** What builds on the GPU: a chunk of its own, for most scenes have no use for it. */
 export const loadGpuTrees = () => import('./gpu-trees');
 
-const trianglesOf = (meshes: readonly Mesh[]) => meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0);
+/** Triangles of all meshes. */
+export const trianglesOf = (meshes: readonly Mesh[]) =>
+  meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0);
 
 /** Runs work that several do together. If it fails, or the caller aborts, the signal is aborted: no part is of use. */
 async function together<T>(outer: AbortSignal | undefined, run: (signal: AbortSignal) => Promise<T>): Promise<T> {

@@ -1,7 +1,8 @@
 import type { Blas } from '@glanz/bvh';
 import type { Mesh } from '@glanz/scene';
 import { isSoftware } from '../device/software';
-import type { GpuMemory } from '../storage/buffers';
+import type { GpuMemory, PagedArray } from '../storage/buffers';
+import type { ShapeArray } from '../storage/shape-arrays';
 
 /** A part of the GPU's buffers that belongs to one mesh, in nodes, triangles and words. */
 export interface MeshRegion {
@@ -22,8 +23,11 @@ export interface Hierarchy extends Omit<Blas, 'nodes'> {
 
 /** What only the GPU has of a mesh's hierarchy. */
 export interface HierarchyOnGpu {
-  /** Copies nodes, triangles and indices to the mesh's region, and frees the buffers that they were built in. */
-  place(buffers: Readonly<Record<'nodes' | 'triangles' | 'attributes', GPUBuffer>>, region: MeshRegion): void;
+  /**
+   * Copies nodes, triangles and indices to the mesh's region, and frees the buffers that they were built in.
+   * @param arrayOf Finds the scene's arrays.
+   */
+  place(arrayOf: (name: ShapeArray) => GPUBuffer | PagedArray, region: MeshRegion): void;
   /** Copies the nodes to the CPU. Where they have no place yet, the buffers that they were built in are freed. */
   read(): Promise<Blas>;
   /** A hierarchy of lower quality over the same triangles, for queries on this thread; made at the first call. */

@@ -99,25 +99,19 @@ export class Placement {
 
   /** The nodes of both hierarchies that have changed since they were last taken; at first all of them. */
   takeChangedNodes(): NodeRange[] {
-    const ranges = rangesOf(this.tlas, this.tlas.takeChangedNodes(), 0);
+    const changed = (tlas: DynamicTlas, root: number) =>
+      [...joinedRanges(tlas.takeChangedNodes(), JOINED_NODES)].map((range) => rangeOf(tlas, root, range));
+    const ranges = changed(this.tlas, 0);
     if (!this.#bare) return ranges;
-    const changed = this.#isBareNew
-      ? Uint32Array.from({ length: this.#bare.nodeCount }, (_, i) => i)
-      : this.#bare.takeChangedNodes();
-    if (this.#isBareNew) this.#bare.takeChangedNodes();
+    const others = changed(this.#bare, this.bareRoot);
+    const isNew = this.#isBareNew;
     this.#isBareNew = false;
-    return [...ranges, ...rangesOf(this.#bare, changed, this.bareRoot)];
+    return [...ranges, ...(isNew ? [rangeOf(this.#bare, this.bareRoot)] : others)];
   }
 
   /** All nodes of both hierarchies. */
   allNodes(): NodeRange[] {
-    const all = (tlas: DynamicTlas, first: number) =>
-      rangesOf(
-        tlas,
-        Uint32Array.from({ length: tlas.nodeCount }, (_, i) => i),
-        first,
-      );
-    return [...all(this.tlas, 0), ...(this.#bare ? all(this.#bare, this.bareRoot) : [])];
+    return [rangeOf(this.tlas, 0), ...(this.#bare ? [rangeOf(this.#bare, this.bareRoot)] : [])];
   }
 
   #note(scene: Scene, index: number): void {
@@ -177,17 +171,24 @@ function glowing(scene: Scene): (material: number) => boolean {
   };
 }
 
-/** Nodes of a hierarchy that lies in the node buffer from `root` on, as few ranges. */
-function rangesOf({ nodes }: DynamicTlas, changed: Uint32Array, root: number): NodeRange[] {
-  const ranges: NodeRange[] = [];
-  for (let i = 0; i < changed.length;) {
-    const first = changed[i++] as number;
+/** Nodes of a hierarchy that lies in the node buffer from `root` on: by default all. */
+function rangeOf(
+  { nodes, nodeCount }: DynamicTlas,
+  root: number,
+  [first, end]: readonly [number, number] = [0, nodeCount],
+): NodeRange {
+  const range = nodes.subarray(first * NODE_WORDS, end * NODE_WORDS);
+  return { first: root + first, nodes: root === 0 ? range : moved(range, root) };
+}
+
+/** Ranges, from the first up to the second number, of numbers that rise; those up to `gap` apart are joined. */
+export function* joinedRanges(numbers: Uint32Array, gap: number): Generator<readonly [from: number, to: number]> {
+  for (let i = 0; i < numbers.length;) {
+    const first = numbers[i++] as number;
     let end = first + 1;
-    while (i < changed.length && (changed[i] as number) <= end + JOINED_NODES) end = (changed[i++] as number) + 1;
-    const range = nodes.subarray(first * NODE_WORDS, end * NODE_WORDS);
-    ranges.push({ first: root + first, nodes: root === 0 ? range : moved(range, root) });
+    while (i < numbers.length && (numbers[i] as number) <= end + gap) end = (numbers[i++] as number) + 1;
+    yield [first, end];
   }
-  return ranges;
 }
 
 /** Nodes with references to inner nodes that count from another place. Leaves name records, which are the same ones. */

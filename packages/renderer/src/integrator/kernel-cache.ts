@@ -100,6 +100,8 @@ export class KernelCache {
       parts = { root: (await import('./film-kernels')).FILM_KERNELS[name] };
     if (name === 'shade' && features.flags.GUIDE) parts = (await import('./guide-kernels')).GUIDED_SHADE;
     if (name === 'shade' && features.flags.SHADOW_SOFTNESS) parts = (await import('./soft-shadows')).softened(parts);
+    const { pages } = features;
+    if (pages) parts = (await import('./paged-kernels')).pagedKernel(this.#device, pages, parts);
     const source = kernelSource(name, features, parts);
     return remember(this.#kernels, source.key, () => source.compile(this.#device));
   }

@@ -1,6 +1,6 @@
 import { bvhAnyHit, bvhClosestHit, bvhOffset } from '@glanz/bvh/wgsl';
 import { openpbr, openpbrMedium, openpbrPhase, openpbrSubsurface } from '@glanz/openpbr';
-import { beginShaderModule, compose, wgslModule, type WgslModule } from '@glanz/wgsl';
+import { beginShaderModule, compose, wgslModule, type ComposedWgsl, type WgslModule } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import { inErrorScopes, lossOr } from '../device/error-scopes';
 import type { TexturedParameterInfo } from '../materials/materials';
@@ -27,6 +27,7 @@ import {
   type ResourceName,
   type SceneBinding,
 } from '../storage/resources';
+import type { ShapeArray } from '../storage/shape-arrays';
 import resolve from '../film/resolve.wesl';
 import shade from './shade.wesl';
 import deltaTransmission from '../materials/delta_transmission.wesl';
@@ -43,6 +44,8 @@ export interface KernelFeatures {
   readonly samplerCount: number;
   /** Sums of light that the film keeps apart: the number of light groups, four times that with catchers. */
   readonly lightPasses: number;
+  /** Arrays that lie in textures. */
+  readonly pages?: readonly ShapeArray[] | undefined;
 }
 
 /** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
@@ -302,7 +305,12 @@ export interface KernelSource {
 }
 
 /** What is loaded later of a kernel's text: its entry point, more of what it calls, other resources. */
-export type KernelParts = Partial<Pick<KernelText, 'root' | 'host' | 'resources'>>;
+export interface KernelParts extends Partial<Pick<KernelText, 'root' | 'host' | 'resources'>> {
+  /** Bindings in place of others. */
+  readonly bind?: (groups: KernelBindings) => KernelBindings;
+  /** The program in place of the one that was composed, line by line. */
+  readonly rewrite?: (program: ComposedWgsl) => string;
+}
 
 /**
  * The text of one kernel for a scene's features.
@@ -318,10 +326,12 @@ export function kernelSource(name: KernelName, features: KernelFeatures, parts: 
     BVH_FILTER: chosen.OPACITY === true || chosen.CULLING === true,
     PASSES: features.lightPasses > 1,
   };
-  const groups = kernelBindings(text.resources, text.textures ? sceneBindings(features) : []);
+  const bound = kernelBindings(text.resources, text.textures ? sceneBindings(features) : []);
+  const groups = parts.bind?.(bound) ?? bound;
   const bindings = bindingModule(name, groups, flags);
   const host = text.host.filter((module) => !!module);
-  const shader = compose([bindings, ...host, text.root], { flags });
+  const composed = compose([bindings, ...host, text.root], { flags });
+  const shader = { ...composed, code: parts.rewrite?.(composed) ?? composed.code };
   return {
     key: `${name}\n${shader.code}`,
     async compile(device) {

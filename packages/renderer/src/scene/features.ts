@@ -19,6 +19,7 @@ import {
   type TexturedParameterInfo,
 } from '../materials/materials';
 import { parametersOf } from '../materials/parameters';
+import type { Pages } from '../storage/paged/pages';
 import { compressedFormats, planTextures, type TexturePlan } from '../materials/textures';
 
 /** Options that decide the kernels' text. */
@@ -29,6 +30,8 @@ export interface SceneChoices {
   readonly lightSampling: LightSampling;
   readonly shadowTerminator: 'smooth' | 'faceted';
   readonly backFaceCulling: BackFaceCulling;
+  /** Holds the arrays of shapes that are too large for buffers. */
+  readonly pages?: Pages | undefined;
 }
 
 /** The properties of a scene that decide which kernels it needs. */
@@ -110,6 +113,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
     textureCount: plan.arrays.length,
     samplerCount: plan.samplers.length,
     lightPasses: facts.groups * (facts.catchers ? 4 : 1),
+    pages: choices.pages?.names,
   };
 }
 
@@ -117,11 +121,11 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
 const OWN_TEXTURES = 4;
 
 /** How the scene's textures lie in those that kernels can bind. */
-export function texturePlan(device: GPUDevice, scene: Scene): TexturePlan {
+export function texturePlan(device: GPUDevice, scene: Scene, { pages }: Pick<SceneChoices, 'pages'>): TexturePlan {
   return planTextures(
     scene,
     usedTextures(scene.materials),
-    device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES,
+    device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES - (pages?.names.length ?? 0),
     device.limits,
     compressedFormats(device),
   );
@@ -142,7 +146,7 @@ export function expectedFeatures(device: GPUDevice, scene: Scene, choices: Scene
   const use = new MaterialUse(scene);
   return sceneFeatures(scene, choices, {
     textured: texturedParameters(scene.materials),
-    plan: texturePlan(device, scene),
+    plan: texturePlan(device, scene, choices),
     groups: lightGroupTable(scene, choices.lightGroups).names.length,
     lights,
     tree: lights && choices.lightSampling === 'tree',

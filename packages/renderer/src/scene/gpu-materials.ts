@@ -43,11 +43,6 @@ export class GpuMaterials {
     this.#bindings = packBindings(scene.materials, plan);
   }
 
-  /** Bytes that texture bindings take in the attribute heap. */
-  get bindingBytes(): number {
-    return this.#bindings.records.byteLength;
-  }
-
   /** Remembers where bindings are. @returns Puts that back; records are to be written again. */
   remember(): () => void {
     const firstBinding = this.#firstBinding;

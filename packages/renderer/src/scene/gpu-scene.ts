@@ -1,6 +1,6 @@
 import type { Environment, Instance, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../integrator/pipelines';
-import { instanceStruct, meshStruct } from '../storage/layout';
+import { instanceStruct } from '../storage/layout';
 import type { ResourceName } from '../storage/resources';
 import {
   prepareEnvironment,
@@ -13,10 +13,10 @@ import {
   instanceRanges,
   joinSlices,
   packInstances,
+  shapeBytes,
   shapeSlices,
   type Geometry,
-  type PackedGeometry,
-  type PackedMesh,
+  type ShapeSlice,
 } from '../geometry/geometry';
 import type { LightGroupTable } from '../lights/light-groups';
 import type { LightIds } from '../lights/light-ids';
@@ -24,7 +24,8 @@ import type { GatheredLights } from '../lights/lights';
 import type { MeshRegion } from '../geometry/hierarchy';
 import type { NodeRange } from '../geometry/placement';
 import type { TexturePlan } from '../materials/textures';
-import type { GpuMemory } from '../storage/buffers';
+import type { GpuMemory, PagedArray } from '../storage/buffers';
+import type { ShapeArray } from '../storage/shape-arrays';
 import { uploadEnergyTextures, type EnergyTextures } from '../materials/energy-textures';
 import { fillEnvironmentTextures, makeEnvironmentTextures } from '../environment/environment-textures';
 import { inErrorScopes, withErrorScopes } from '../device/error-scopes';
@@ -69,11 +70,11 @@ export class GpuScene {
 
   constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
     this.#device = device;
-    this.#resources = new SceneResources(memory);
+    this.#resources = new SceneResources(memory, choices.pages);
     this.#scene = scene;
     this.#geometry = geometry;
     this.#choices = choices;
-    this.#plan = texturePlan(device, scene);
+    this.#plan = texturePlan(device, scene, choices);
     const { textures, samplers } = uploadTextures(device, memory, scene, this.#plan);
     this.#sceneTextures = textures;
     this.#samplers = samplers;
@@ -93,6 +94,11 @@ export class GpuScene {
   /** Texels of the images in use, without mip levels. */
   get texels(): number {
     return this.#plan.arrays.reduce((sum, { width, height, layers }) => sum + width * height * layers.length, 0);
+  }
+
+  /** Arrays of shapes that lie in textures. */
+  get pages(): readonly ShapeArray[] | undefined {
+    return this.#choices.pages?.names;
   }
 
   get groups(): LightGroupTable {
@@ -182,7 +188,7 @@ export class GpuScene {
   resource(name: string): GPUBindingResource | undefined {
     if (name === 'light_index') this.#lights.makeIndex();
     const buffer = this.#resources.buffer(name as ResourceName);
-    if (buffer) return { buffer };
+    if (buffer) return 'view' in buffer ? buffer.view : { buffer };
     const texture = this.#resources.texture(name as ResourceName);
     if (texture) return texture.createView();
     if (name === 'energy_sampler') return this.#energySampler;
@@ -268,30 +274,16 @@ export class GpuScene {
     this.#writeNodes(placement.allNodes());
   }
 
-  /** A mesh was replaced by one that fits into its region. Returns true if bindings were replaced. */
-  updateMesh(geometry: Geometry, index: number, packed: PackedMesh): boolean {
-    this.#writeMesh(geometry, index, packed);
-    return this.updatePlacement(geometry);
-  }
-
-  /** Writes a mesh into its region again, after an edit that had written another one there was taken back. */
-  rewriteMesh(index: number, packed: PackedMesh): void {
-    this.#writeMesh(this.#geometry, index, packed);
-  }
-
-  #writeMesh(geometry: Geometry, index: number, packed: PackedMesh): void {
-    const region = geometry.regions[index] as MeshRegion;
-    this.#resources.write('nodes', packed.nodes, region.firstNode * 64);
-    this.#resources.write('triangles', packed.triangles, region.firstTriangle * 48);
-    this.#resources.write('attributes', packed.record, index * meshStruct.size);
-    this.#resources.write('attributes', packed.attributes, region.firstWord * 4);
+  /** Writes parts of the shapes, also after an edit that had written others there was taken back. */
+  writeShapes(slices: Iterable<ShapeSlice>): void {
+    for (const { buffer, offset, data } of slices) this.#resources.write(buffer, data, offset);
   }
 
   /** All shapes are new. Bindings are replaced. */
-  updateShapes(geometry: Geometry, packed: PackedGeometry): void {
+  updateShapes(geometry: Geometry, slices: Iterable<ShapeSlice>): void {
     this.#setGeometry(geometry);
     this.#makeShapes(geometry);
-    for (const name of ['nodes', 'triangles', 'attributes'] as const) this.#resources.write(name, packed[name]);
+    this.writeShapes(joinSlices(slices));
     this.updatePlacement(geometry);
   }
 
@@ -302,11 +294,10 @@ export class GpuScene {
   }
 
   /** Makes the buffers of shapes, still empty but for what belongs to materials. */
-  #makeShapes({ nodeCount, triangleCount, attributeWords }: Geometry): void {
-    this.#resources.make('nodes', 64 * nodeCount);
-    this.#resources.make('triangles', 48 * triangleCount);
-    this.#resources.make('attributes', 4 * attributeWords + this.#materials.bindingBytes);
-    this.#materials.make(attributeWords);
+  #makeShapes(geometry: Geometry): void {
+    for (const [name, bytes] of Object.entries(shapeBytes(this.#scene, geometry)))
+      this.#resources.make(name as ShapeArray, bytes);
+    this.#materials.make(geometry.attributeWords);
   }
 
   /** Writes the shapes, yielding to the event loop every few milliseconds. */
@@ -314,13 +305,9 @@ export class GpuScene {
     const pace = uploadPace(this.#device);
     const written: Promise<void>[] = [];
     this.#geometry.placement.takeChangedNodes();
-    const buffers = {
-      nodes: this.#resources.buffer('nodes') as GPUBuffer,
-      triangles: this.#resources.buffer('triangles') as GPUBuffer,
-      attributes: this.#resources.buffer('attributes') as GPUBuffer,
-    };
+    const arrayOf = (name: ShapeArray) => this.#resources.buffer(name) as GPUBuffer | PagedArray;
     const { verified: placed } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
-      this.#geometry.blas.forEach((tree, i) => tree?.gpu?.place(buffers, this.#geometry.regions[i] as MeshRegion)),
+      this.#geometry.blas.forEach((tree, i) => tree?.gpu?.place(arrayOf, this.#geometry.regions[i] as MeshRegion)),
     );
     written.push(placed);
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {

@@ -16,8 +16,8 @@ import { checkParameters } from '../materials/check-parameters';
 import {
   attributeWords,
   layOutGeometry,
+  meshSlices,
   packGeometry,
-  packMesh,
   prepareHierarchies,
   type Geometry,
 } from '../geometry/geometry';
@@ -235,8 +235,11 @@ export class SceneEditor {
     const geometry: Geometry = { ...this.#geometry, placement, blas, hasVertexColors, triangleCount };
     const old = this.#trees.get(before);
     return {
-      ...this.#commit(next, geometry, () => this.#gpu.updateMesh(geometry, index, packMesh(mesh, tree, region))),
-      ...(old ? { rewrite: () => this.#gpu.rewriteMesh(index, packMesh(before, old, region)) } : {}),
+      ...this.#commit(next, geometry, () => {
+        this.#gpu.writeShapes(meshSlices(index, mesh, tree, region));
+        return this.#gpu.updatePlacement(geometry);
+      }),
+      ...(old ? { rewrite: () => this.#gpu.writeShapes(meshSlices(index, before, old, region)) } : {}),
     };
   }
 

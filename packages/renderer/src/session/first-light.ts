@@ -45,7 +45,7 @@ export function showFirstLight(
   // Its own accounts: it is gone before they can be read.
   const memory = new GpuMemory(device);
   const draw = async () => {
-    const kernel = await cache.kernel('first', features);
+    const kernel = await cache.kernel('first', { ...features, pages: scene.pages });
     if (late()) return;
     const { result: beauty, verified } = inErrorScopes(device, 'the first image', () => encode(kernel));
     await verified;

@@ -5,12 +5,30 @@ const SLICE = 16 << 20;
 const mebibytes = (bytes: number) => `${(bytes / 2 ** 20).toFixed(1)} MiB`;
 
 /**
+ * An array that shaders read from a texture, because it is larger than they can bind of a buffer: see
+ * `storage/paged/pages.ts`. Used in place of a buffer.
+ */
+export interface PagedArray {
+  /** Bytes of the texture. */
+  readonly size: number;
+  /** What kernels bind. */
+  readonly view: GPUTextureView;
+  /** As `GpuMemory.write`. */
+  write(data: ArrayBufferView<ArrayBuffer> | ArrayBuffer, offset: number): void;
+  /** Copies the first `bytes` of a buffer to `offset` bytes. */
+  copyFrom(encoder: GPUCommandEncoder, buffer: GPUBuffer, offset: number, bytes: number): void;
+  /** Copies the `bytes` from `offset` on to the begin of a buffer. */
+  copyTo(encoder: GPUCommandEncoder, buffer: GPUBuffer, offset: number, bytes: number): void;
+  destroy(): void;
+}
+
+/**
  * Owns GPU buffers and textures: counts their bytes, checks every size against the device's limits before it is asked
  * for, and destroys all of them at once.
  */
 export class GpuMemory {
   readonly #device: GPUDevice;
-  readonly #live = new Map<GPUBuffer | GPUTexture, { readonly label: string; readonly bytes: number }>();
+  readonly #live = new Map<GPUBuffer | GPUTexture | PagedArray, { readonly label: string; readonly bytes: number }>();
   #bytes = 0;
   #destroyed = false;
 
@@ -83,13 +101,13 @@ export class GpuMemory {
     return texture;
   }
 
-  /** Takes a buffer over that others have made. */
-  adopt(label: string, buffer: GPUBuffer): void {
+  /** Takes a buffer or an array over that others have made. */
+  adopt(label: string, buffer: GPUBuffer | PagedArray): void {
     this.#keep(buffer, label, buffer.size);
   }
 
   /** Destroys one buffer or texture; unknown ones are ignored. */
-  release(resource: GPUBuffer | GPUTexture | undefined): void {
+  release(resource: GPUBuffer | GPUTexture | PagedArray | undefined): void {
     if (!resource) return;
     const held = this.#live.get(resource);
     if (held === undefined) return;
@@ -103,7 +121,7 @@ export class GpuMemory {
     for (const resource of this.#live.keys()) this.release(resource);
   }
 
-  #keep(resource: GPUBuffer | GPUTexture, label: string, bytes: number): void {
+  #keep(resource: GPUBuffer | GPUTexture | PagedArray, label: string, bytes: number): void {
     this.#live.set(resource, { label, bytes });
     this.#bytes += bytes;
   }

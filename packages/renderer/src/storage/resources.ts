@@ -94,6 +94,8 @@ export type SceneBinding = readonly [name: string, kind: 'texture_2d_array' | 's
 export interface KernelBinding extends Pick<Resource, 'type' | 'space' | 'deps' | 'layout'> {
   readonly name: string;
   readonly binding: number;
+  /** Of the bind group layout, where it does not follow from `space`. */
+  readonly entry?: Omit<GPUBindGroupLayoutEntry, 'binding' | 'visibility'>;
 }
 
 /** The bind groups of a kernel by their numbers, up to the last one that it uses. */
@@ -156,10 +158,10 @@ export function bindGroupLayouts(device: GPUDevice, kernel: string, groups: Kern
   return groups.map(({ group, bindings }) =>
     device.createBindGroupLayout({
       label: `glanz ${kernel} ${group}`,
-      entries: bindings.map(({ binding, space }) => ({
+      entries: bindings.map(({ binding, space, entry = layoutEntry(space) }) => ({
         binding,
         visibility: GPU_STAGE_COMPUTE,
-        ...layoutEntry(space),
+        ...entry,
       })),
     }),
   );

@@ -1,3 +1,4 @@
+import type { Pages } from './paged/pages';
 import type { ResourceName } from './resources';
 import {
   GPU_BUFFER_COPY_DST,
@@ -6,6 +7,7 @@ import {
   GPU_TEXTURE_BINDING,
   GPU_TEXTURE_COPY_DST,
   type GpuMemory,
+  type PagedArray,
 } from './buffers';
 
 /** Where kernels find the buffers, textures and samplers that they bind. */
@@ -24,21 +26,26 @@ export interface ResourceLog {
   readonly undo: () => void;
 }
 
+type SceneResource = GPUBuffer | GPUTexture | PagedArray;
+
 /**
  * The named buffers and textures of a scene. What an edit replaces can be kept until it is known whether the edit
  * holds.
  */
 export class SceneResources {
   readonly #memory: GpuMemory;
-  readonly #buffers = new Map<ResourceName, GPUBuffer>();
+  readonly #pages: Pages | undefined;
+  readonly #buffers = new Map<ResourceName, GPUBuffer | PagedArray>();
   readonly #textures = new Map<ResourceName, GPUTexture>();
-  #log: { readonly made: (GPUBuffer | GPUTexture)[]; readonly replaced: (GPUBuffer | GPUTexture)[] } | undefined;
+  #log: { readonly made: SceneResource[]; readonly replaced: SceneResource[] } | undefined;
 
-  constructor(memory: GpuMemory) {
+  /** @param pages Holds the arrays that are too large for buffers. */
+  constructor(memory: GpuMemory, pages?: Pages) {
     this.#memory = memory;
+    this.#pages = pages;
   }
 
-  buffer(name: ResourceName): GPUBuffer | undefined {
+  buffer(name: ResourceName): GPUBuffer | PagedArray | undefined {
     return this.#buffers.get(name);
   }
 
@@ -47,8 +54,10 @@ export class SceneResources {
   }
 
   /** Creates a storage buffer of this name and replaces the present one. */
-  make(name: ResourceName, bytes: number): GPUBuffer {
-    const buffer = this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC);
+  make(name: ResourceName, bytes: number): GPUBuffer | PagedArray {
+    const buffer =
+      this.#pages?.make(this.#memory, name, bytes) ??
+      this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC);
     this.#replace(this.#buffers, name, buffer);
     return buffer;
   }
@@ -57,12 +66,15 @@ export class SceneResources {
    * Makes a storage buffer of this name and fills it. All at once: large ones are filled by who can wait in between.
    */
   upload(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer): void {
-    this.#memory.write(this.make(name, data.byteLength), data);
+    this.make(name, data.byteLength);
+    this.write(name, data);
   }
 
   /** Writes into the buffer of this name, at `offset` bytes. */
   write(name: ResourceName, data: ArrayBufferView<ArrayBuffer> | ArrayBuffer, offset = 0): void {
-    this.#memory.write(this.#buffers.get(name) as GPUBuffer, data, offset);
+    const buffer = this.#buffers.get(name) as GPUBuffer | PagedArray;
+    if ('view' in buffer) buffer.write(data, offset);
+    else this.#memory.write(buffer, data, offset);
   }
 
   /** Creates an empty texture of this name and replaces the present one. */
@@ -84,7 +96,7 @@ export class SceneResources {
    * @param undone Called when the log has been undone, also where `edit` throws.
    */
   record<T>(edit: () => T, undone: () => void): ResourceLog & { readonly result: T } {
-    const log = { made: [] as (GPUBuffer | GPUTexture)[], replaced: [] as (GPUBuffer | GPUTexture)[] };
+    const log = { made: [] as SceneResource[], replaced: [] as SceneResource[] };
     const [buffers, textures] = [[...this.#buffers], [...this.#textures]];
     const undo = () => {
       for (const [name, buffer] of buffers) this.#buffers.set(name, buffer);
@@ -109,7 +121,7 @@ export class SceneResources {
     }
   }
 
-  #replace<T extends GPUBuffer | GPUTexture>(of: Map<ResourceName, T>, name: ResourceName, resource: T): void {
+  #replace<T extends SceneResource>(of: Map<ResourceName, T>, name: ResourceName, resource: T): void {
     const before = of.get(name);
     if (this.#log) {
       this.#log.made.push(resource);

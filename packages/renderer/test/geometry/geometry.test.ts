@@ -41,7 +41,15 @@ test('slices of shapes are small, do not overlap and hold every triangle and att
   for (const name of ['triangles', 'attributes'] as const)
     expect(written[name].every((times) => times === 1)).toBe(true);
 
-  const { nodes, triangles, attributes } = await packGeometry(scene, geometry);
+  const memory = {
+    nodes: new Uint8Array(sizes.nodes),
+    triangles: new Uint8Array(sizes.triangles),
+    attributes: new Uint8Array(sizes.attributes),
+  };
+  for (const { buffer, offset, data } of await packGeometry(scene, geometry))
+    memory[buffer].set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), offset);
+  const [nodes, triangles] = [new Float32Array(memory.nodes.buffer), new Float32Array(memory.triangles.buffer)];
+  const { attributes } = memory;
   const ids = new Uint32Array(triangles.buffer);
   scene.meshes.forEach((mesh, index) => {
     const region = geometry.regions[index]!,

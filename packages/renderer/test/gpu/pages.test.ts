@@ -1,0 +1,317 @@
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import type { Instance, Mesh, Scene } from '@glanz/scene';
+import { afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { prepareGeometry, shapeBytes } from '../../src/geometry/geometry';
+import { readAov } from '../aovs';
+import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
+
+let device: GPUDevice;
+beforeAll(async () => {
+  device = await testDevice({ driver: 'swiftshader' });
+});
+afterEach(() => expectNoGpuErrors());
+
+const WIDTH = 24;
+const options: PathTracerOptions = { width: WIDTH, height: WIDTH, camera, pathsInFlight: 1 << 10, maxDepth: 5 };
+
+/** What a shader can bind of a buffer, and textures of as few texels: rows of 64, layers of 16 KiB. */
+const SMALL = { maxStorageBufferBindingSize: 40 << 10, maxTextureDimension2D: 64 };
+type Limits = Partial<
+  Record<keyof typeof SMALL | 'maxTextureArrayLayers' | 'maxSampledTexturesPerShaderStage', number>
+>;
+
+/** The device with lower limits, and the arrays and buffers of a scene that are made on it. */
+function limited(limits: Limits = SMALL) {
+  const live = new Map<GPUBuffer | GPUTexture, string>();
+  const tracked = <T extends GPUBuffer | GPUTexture>(label: string, resource: T): T => {
+    live.set(resource, label);
+    const destroy = resource.destroy.bind(resource);
+    return Object.assign(resource, {
+      destroy: () => {
+        live.delete(resource);
+        destroy();
+      },
+    });
+  };
+  const all = new Proxy(device.limits, {
+    get: (target, name) => (limits as Record<string | symbol, number>)[name] ?? (Reflect.get(target, name) as number),
+  });
+  const proxy = new Proxy(device, {
+    get(target, name) {
+      if (name === 'limits') return all;
+      if (name === 'createBuffer')
+        return (of: GPUBufferDescriptor) => tracked(`buffer ${of.label ?? ''}`, target.createBuffer(of));
+      if (name === 'createTexture')
+        return (of: GPUTextureDescriptor) => tracked(`texture ${of.label ?? ''}`, target.createTexture(of));
+      const value = Reflect.get(target, name) as unknown;
+      return typeof value === 'function' ? (value as () => unknown).bind(target) : value;
+    },
+  });
+  const shapes = () =>
+    [...live.values()]
+      .filter((label) => /glanz (nodes|triangles|attributes)$/.test(label))
+      .map((label) => label.replace('glanz ', ''))
+      .sort();
+  return { device: proxy, live, shapes };
+}
+
+/** Texture coordinates, tangents and colours for a sphere: numbers that differ at each vertex. */
+function withAttributes(mesh: Mesh): Mesh {
+  const normals = mesh.normals as Float32Array;
+  const count = normals.length / 3;
+  const uv = new Float32Array(2 * count);
+  const tangents = new Float32Array(4 * count);
+  const colors = new Float32Array(4 * count);
+  for (let i = 0; i < count; i++) {
+    const [x, y, z] = [0, 1, 2].map((k) => normals[3 * i + k]!) as [number, number, number];
+    uv.set([2 * Math.atan2(z, x), 3 * y], 2 * i);
+    const length = Math.hypot(x, z) || 1;
+    tangents.set([-z / length, 0, x / length, i % 2 ? 1 : -1], 4 * i);
+    colors.set([0.5 + 0.5 * x, 0.5 + 0.5 * y, 0.5 + 0.5 * z, 0.6 + 0.4 * Math.abs(y)], 4 * i);
+  }
+  return { ...mesh, uvs: [uv, uv.map((value) => 1 - value)], tangents, colors };
+}
+
+function addTexture(scene: Scene, name: string, texel: (x: number, y: number) => readonly number[]): number {
+  const data = Array.from({ length: 64 }, (_, i) => texel(i % 8, i >> 3)).flat();
+  const image = scene.images.push({ name, width: 8, height: 8, data: new Float32Array(data) }) - 1;
+  return scene.textures.push({ image, color_space: 'linear' }) - 1;
+}
+
+const place = (x: number, y: number, z: number, scale = 1, mirrored = false) => [
+  mirrored ? -scale : scale,
+  0,
+  0,
+  0,
+  0,
+  scale,
+  0,
+  0,
+  0,
+  0,
+  scale,
+  0,
+  x,
+  y,
+  z,
+  1,
+];
+
+/**
+ * All that shaders read of shapes: a floor; a ball with normals, two sets of texture coordinates, tangents and colours
+ * that let light pass, three times, once mirrored; glass; a cut-out before them; a light of triangles; a hidden ball.
+ */
+function gallery(segments = 40): Scene {
+  const scene = createScene();
+  addQuad(scene, 0.9, -0.4, { ...lambert(0.6, 0.5, 0.4), name: 'floor' });
+  const normal = addTexture(scene, 'bumps', (x, y) => [0.5 + 0.2 * Math.sin(x), 0.5 + 0.2 * Math.cos(y), 0.9, 1]);
+  const stripes = addTexture(scene, 'stripes', (x, y) => [x / 8, y / 8, 0.5, (x + y) % 2]);
+  addSphere(
+    scene,
+    0.3,
+    [0, 0, 0],
+    {
+      name: 'paint',
+      parameters: { specular_roughness: 0.4, specular_roughness_anisotropy: 0.7 },
+      textures: {
+        base_color: { texture: stripes, channels: 'rgb' },
+        specular_roughness: { texture: stripes, channels: 'g', uv: 1 },
+        geometry_normal: { texture: normal, channels: 'rgb' },
+      },
+    },
+    segments,
+  );
+  scene.meshes[1] = withAttributes(scene.meshes[1] as Mesh);
+  const ball = scene.instances[1] as Instance;
+  Object.assign(ball, { name: 'ball', transform: place(-0.35, 0.3, 0) });
+  scene.instances.push(
+    { ...ball, name: 'mirrored', transform: place(0.35, 0.3, 0.1, 1, true) },
+    { ...ball, name: 'small', transform: place(0, -0.5, 0.3, 0.5) },
+  );
+  addSphere(
+    scene,
+    0.2,
+    [0.4, -0.4, 0.3],
+    {
+      name: 'glass',
+      parameters: { transmission_weight: 1, transmission_color: [0.8, 0.9, 1], transmission_depth: 0.2 },
+    },
+    segments / 2,
+  );
+  addSphere(
+    scene,
+    0.1,
+    [0, 0.7, 0.4],
+    { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 20 } },
+    12,
+  );
+  addSphere(scene, 0.2, [-0.5, -0.5, 0.2], { ...lambert(0.9), name: 'late' }, segments);
+  Object.assign(scene.instances.at(-1) as object, { name: 'late', visible: false });
+  // The last of all: what is read of it lies in the last rows.
+  const cutOut = addQuad(scene, 0.6, 0.6, {
+    name: 'cut-out',
+    parameters: { base_color: [0.2, 0.4, 0.2] },
+    opacity_threshold: 0.5,
+    textures: { geometry_opacity: { texture: stripes, channels: 'a' } },
+  });
+  Object.assign(scene.instances.at(-1) as object, { name: 'cut-out', material: cutOut });
+  scene.environment = { type: 'constant', radiance: [0.3, 0.4, 0.5] };
+  return scene;
+}
+
+async function film(tracer: PathTracer, samples = 4) {
+  for await (const _ of tracer.render({ samples, maxSubmitMs: 1000 }));
+  return tracer.read('beauty');
+}
+
+async function fresh(on: GPUDevice, scene: Scene, over: Partial<PathTracerOptions> = {}) {
+  const tracer = await PathTracer.create(on, scene, { ...options, ...over });
+  try {
+    return await film(tracer);
+  } finally {
+    tracer.destroy();
+  }
+}
+
+const moved = (scene: Scene, name: string, change: Partial<Instance>): Scene => ({
+  ...scene,
+  instances: scene.instances.map((instance) => (instance.name === name ? { ...instance, ...change } : instance)),
+});
+
+describe('arrays larger than a binding', () => {
+  it('lie in textures, and give the film, the AOVs and the picks of buffers bit for bit', async () => {
+    const scene = gallery();
+    const { device: small, shapes, live } = limited();
+    const aovs = ['normal', 'objectId'] as const;
+    const make = (on: GPUDevice) => PathTracer.create(on, scene, { ...options, aovs });
+    const [paged, plain] = await Promise.all([make(small), make(device)]);
+    expect(shapes()).toEqual(['texture attributes', 'texture nodes', 'texture triangles']);
+    expect(await film(paged)).toEqual(await film(plain));
+    for (const name of aovs)
+      expect(await readAov(small, paged, name), name).toEqual(await readAov(device, plain, name));
+    for (let y = 0.5; y < WIDTH; y += 3)
+      for (let x = 0.5; x < WIDTH; x += 3) expect(paged.pick(x, y)).toEqual(plain.pick(x, y));
+    // Textures have whole rows and layers.
+    const [{ memory: own }, { memory: other }] = [paged.statistics, plain.statistics];
+    expect(own.shapes).toBeGreaterThanOrEqual(other.shapes);
+    expect(own.shapes).toBeLessThan(1.5 * other.shapes);
+    expect(own.other).toBe(other.other);
+    for (const tracer of [paged, plain]) tracer.destroy();
+    expect([...live.values()]).toEqual([]);
+  });
+
+  /** Balls of few triangles, each of which a GPU with small bindings can build. */
+  function balls(): Scene {
+    const scene = createScene();
+    for (let i = 0; i < 9; i++)
+      addSphere(scene, 0.2, [(i % 3) / 2 - 0.5, (i - (i % 3)) / 6 - 0.5, 0], lambert(0.7), 20);
+    scene.environment = { type: 'constant', radiance: [0.6, 0.7, 0.8] };
+    return scene;
+  }
+
+  it('follow edits', async () => {
+    let scene = balls();
+    for (const [i, instance] of scene.instances.entries())
+      Object.assign(instance, { name: `ball ${i}`, visible: i !== 8 });
+    const { device: small, shapes, live } = limited();
+    const tracer = await PathTracer.create(small, scene, options);
+    const check = async () => {
+      expect(shapes()).toEqual(['texture attributes', 'texture nodes', 'texture triangles']);
+      expect(await film(tracer)).toEqual(await fresh(device, scene));
+    };
+    await check();
+    // Nodes of the upper levels and a record.
+    scene = moved(scene, 'ball 1', { transform: place(0.1, 0.1, 0.4, 0.7) });
+    await tracer.setInstanceTransform('ball 1', place(0.1, 0.1, 0.4, 0.7));
+    await check();
+    // A mesh that was not shown before: all is laid out again.
+    scene = moved(scene, 'ball 8', { visible: true });
+    await tracer.setVisibility('ball 8', true);
+    await check();
+    // A smaller mesh that is written into the region of the one before, and a larger one that does not fit there.
+    for (const segments of [12, 28]) {
+      const other = createScene();
+      addSphere(other, 0.25, [0, 0, 0.2], lambert(0.5), segments);
+      await tracer.replaceMesh(4, other.meshes[0] as Mesh);
+      scene = { ...scene, meshes: scene.meshes.map((mesh, i) => (i === 4 ? other.meshes[0]! : mesh)) };
+      await check();
+    }
+    tracer.destroy();
+    expect([...live.values()]).toEqual([]);
+  });
+
+  it('take hierarchies that were built on the GPU, and give them back for edits', async () => {
+    const scene = balls();
+    const { device: small, shapes } = limited();
+    const tracer = await PathTracer.create(small, scene, { ...options, bvhBuilder: 'gpu' });
+    expect(tracer.statistics.builds).toEqual([expect.objectContaining({ where: 'gpu', meshes: 9 })]);
+    expect(shapes()).toEqual(['texture attributes', 'texture nodes', 'texture triangles']);
+    expect(await film(tracer)).toEqual(await fresh(device, scene, { bvhBuilder: 'gpu' }));
+    const other = createScene();
+    addSphere(other, 0.3, [0, 0, 0.2], lambert(0.5), 24);
+    await tracer.replaceMesh(4, other.meshes[0] as Mesh);
+    const edited = { ...scene, meshes: scene.meshes.map((mesh, i) => (i === 4 ? other.meshes[0]! : mesh)) };
+    expect(await film(tracer)).toEqual(await fresh(device, edited, { bvhBuilder: 'cpu' }));
+    tracer.destroy();
+  });
+
+  it('lie in textures alone: the others stay in buffers', async () => {
+    const scene = balls();
+    const bytes = shapeBytes(scene, await prepareGeometry(scene));
+    const expected = await fresh(device, scene);
+    const [first, second, third] = (Object.entries(bytes) as [string, number][]).sort(([, a], [, b]) => a - b);
+    for (const [limit, large] of [
+      [first![1], [second![0], third![0]]],
+      [second![1], [third![0]]],
+      [third![1], []],
+    ] as const) {
+      const maxStorageBufferBindingSize = 16 * Math.ceil(limit / 16);
+      const { device: small, shapes } = limited({ ...SMALL, maxStorageBufferBindingSize });
+      const tracer = await PathTracer.create(small, scene, options);
+      const kinds = ['nodes', 'triangles', 'attributes'].map(
+        (name) => `${(large as readonly string[]).includes(name) ? 'texture' : 'buffer'} ${name}`,
+      );
+      expect(shapes()).toEqual(kinds.sort());
+      expect(await film(tracer)).toEqual(expected);
+      tracer.destroy();
+    }
+  });
+
+  it('are refused before anything is made where textures do not hold them, with the numbers', async () => {
+    const made: string[] = [];
+    const { device: small } = limited({ ...SMALL, maxTextureArrayLayers: 2 });
+    const watched = new Proxy(small, {
+      get(target, name) {
+        const value = Reflect.get(target, name) as unknown;
+        if (typeof value !== 'function') return value;
+        if (typeof name === 'string' && /^create(Buffer|Texture|ComputePipeline)/.test(name)) made.push(name);
+        return (value as () => unknown).bind(target);
+      },
+    });
+    const creating = PathTracer.create(watched, balls(), options);
+    await expect(creating).rejects.toMatchObject({
+      code: 'renderer/limit',
+      message: expect.stringMatching(
+        /shapes of this scene take \d.* MiB \(nodes .* MiB, triangles .* MiB, attributes .* MiB\), .* 0\.0 MiB/,
+      ) as string,
+    });
+    expect(made).toEqual([]);
+  });
+
+  it('cannot grow out of a buffer in an edit, which leaves the scene as it is', async () => {
+    const scene = createScene();
+    addSphere(scene, 0.3, [0, 0, 0], lambert(0.7), 16);
+    scene.environment = { type: 'constant', radiance: [0.6, 0.7, 0.8] };
+    const { device: small, shapes } = limited();
+    const tracer = await PathTracer.create(small, scene, options);
+    const before = await film(tracer);
+    expect(shapes()).toEqual(['buffer attributes', 'buffer nodes', 'buffer triangles']);
+    const other = createScene();
+    addSphere(other, 0.3, [0, 0, 0], lambert(0.7), 64);
+    await expect(tracer.replaceMesh(0, other.meshes[0] as Mesh)).rejects.toMatchObject({ code: 'renderer/limit' });
+    await tracer.reset();
+    expect(await film(tracer)).toEqual(before);
+    tracer.destroy();
+  });
+});
