@@ -1,7 +1,8 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, arrays beyond a binding,
-// animations, a ground, guiding, noise targets), and what saves images, lies beside it and is fetched by import() when it is needed.
+// animations, a ground, guiding, noise targets), and what saves images, lies beside it and is fetched by import() when
+// it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
