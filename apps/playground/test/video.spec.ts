@@ -108,7 +108,7 @@ function mp4(bytes: Buffer): { frames: number; width: number; height: number } {
   return found;
 }
 
-/** Pixels of the film at times in seconds, as the browser plays it: RGB at points in shares of its size. */
+/** Pixels of the video at times in seconds, as the browser plays it: RGB at points in shares of its size. */
 const played = (
   bytes: Buffer,
   type: string,
@@ -129,10 +129,17 @@ const played = (
         willReadFrequently: true,
       })!;
       const frames: number[][][] = [];
+      // The event 'seeked' may come before the frame is on the video: the one before would be drawn.
+      const presented = (time: number) =>
+        new Promise<void>((resolve) => {
+          const look = (_: number, { mediaTime }: { readonly mediaTime: number }) =>
+            mediaTime <= time + 1e-3 && time - mediaTime < 0.13 ? resolve() : video.requestVideoFrameCallback(look);
+          video.requestVideoFrameCallback(look);
+        });
       for (const time of moments) {
-        const seeked = new Promise((resolve) => video.addEventListener('seeked', resolve, { once: true }));
+        const shown = presented(time);
         video.currentTime = time;
-        await seeked;
+        await shown;
         context.drawImage(video, 0, 0);
         frames.push(
           places.map(([x, y]) =>
