@@ -47,6 +47,7 @@ const results = [
   ['Truth', '/results/truth'],
   ['Reliability', '/results/reliability'],
   ['Error at equal time', '/results/equal-time'],
+  ['Products', '/results/products'],
   ['Hierarchies', '/results/bvh'],
   ['OpenPBR', '/results/openpbr'],
   ['Loading', '/results/loading'],

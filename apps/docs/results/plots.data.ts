@@ -189,6 +189,23 @@ function reliability(): Plot {
   };
 }
 
+function products(): Plot {
+  const ratios = figuresOf('products').all.flatMap(({ name, median }) => {
+    const [, product] = /^(.+), 512 × 512: noise × wall time/.exec(name) ?? [];
+    return product && median ? [{ product, median }] : [];
+  });
+  return {
+    question: 'How many times as long as Glanz does three-gpu-pathtracer take to the same noise, 512 × 512 pixels?',
+    better: 'higher',
+    groups: [
+      {
+        label: 'products',
+        bars: ratios.map(({ product, median }) => bar(product, median, '×', 'ours')),
+      },
+    ],
+  };
+}
+
 export default defineLoader({
   watch: ['./*.json'],
   load: (): Readonly<Record<string, Plot>> => ({
@@ -198,5 +215,6 @@ export default defineLoader({
     truth: furnace(),
     openpbr: materials(),
     reliability: reliability(),
+    products: products(),
   }),
 });

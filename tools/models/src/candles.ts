@@ -152,7 +152,7 @@ export function createCandles(): Scene {
   });
   stage.camera('Front', {
     direction: [0.02, 0.17, 1],
-    margin: 0.16,
+    margin: 0.3,
     focalLength: 85,
     lensRadius: 2.6,
     focus: [14, 60, 40],

@@ -1,13 +1,14 @@
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import type { Benchmark } from '../benchmark';
+import type { Benchmark, BenchmarkResult } from '../benchmark';
 import { childJob, inChild, type ChildJobs } from '../child';
 import { productFile } from '../denoise/product-scenes';
 import { BenchError } from '../error';
 import { listOption, numberOption } from '../options';
 import { measureProduct, RENDERERS, type ProductMeasurement, type ProductPlan } from '../products/measure';
 import { productOf, PRODUCTS } from '../products/scenes';
+import { joinedMeasurements, readReports, writeProductPage } from '../products/page';
 import { figuresOf, productTable, remarks } from '../products/summary';
 
 const JOBS: ChildJobs<ProductPlan> = { name: 'products', file: import.meta.url, run: measureProduct };
@@ -30,6 +31,22 @@ const withoutPeer = (adapter: string) =>
     ? 'SwiftShader has too few storage buffers for it (it wants a GPU, or Mesa 25 or later)'
     : undefined;
 
+/** What earlier reports say together. */
+function fromReports(
+  files: readonly string[],
+  folder: string | undefined,
+  log: (line: string) => void,
+): BenchmarkResult {
+  const reports = readReports(files);
+  const measurements = joinedMeasurements(reports);
+  const figures = figuresOf(measurements, true);
+  const mean = figures.at(-1);
+  const whole = mean && 'median' in mean ? mean.median.toPrecision(3) : '–';
+  if (folder !== undefined) for (const file of writeProductPage(reports, figures, whole, folder)) log(`wrote ${file}`);
+  process.stdout.write(`${productTable(measurements)}\n`);
+  return { settings: { from: files }, figures, notes: remarks(measurements) };
+}
+
 /** Products in real light, each renderer in a process of its own on the same files. */
 export const benchmark: Benchmark = {
   description: 'set-up, time and error per sample of products in real light, beside three-gpu-pathtracer',
@@ -41,9 +58,14 @@ export const benchmark: Benchmark = {
     runs: { type: 'string', help: 'independent runs, two or more (4)' },
     reference: { type: 'string', help: 'samples a pixel of the references (2048)' },
     deadline: { type: 'string', help: 'seconds after which nothing new is begun' },
+    from: { type: 'string', help: 'measures nothing: takes the data of these reports, separated by commas' },
+    pages: { type: 'string', help: 'folder to write the page of the docs into, with --from' },
   },
   async run({ log, quick, gpu, values }) {
     await childJob(JOBS);
+    if (values['from'] !== undefined) return fromReports(values['from'].split(','), values['pages'], log);
+    if (values['pages'] !== undefined)
+      throw new BenchError('bench/option', '--pages writes what --from reads: measure first.');
     const started = performance.now();
     const products = listOption(
       values['only'],

@@ -82,6 +82,7 @@ export function productTable(all: readonly ProductMeasurement[]): string {
     'peer: set-up, ms',
     'ms a sample',
     'relMSE × samples',
+    'brightness',
     'noise × time, peer / Glanz',
   ];
   const columns = (one: ProductMeasurement) => [
@@ -98,7 +99,13 @@ export function productTable(all: readonly ProductMeasurement[]): string {
         size(one),
         ...columns(one),
         one.reference ? one.reference.ownRelMse.toExponential(1) : '–',
-        ...(peer ? [...columns(peer), three(noiseTime(peer) / noiseTime(one))] : ['–', '–', '–', '–']),
+        ...(peer
+          ? [
+              ...columns(peer),
+              three(mean(peer.runs.map(({ brightness }) => brightness))),
+              three(noiseTime(peer) / noiseTime(one)),
+            ]
+          : ['–', '–', '–', '–', '–']),
       ];
     });
   return [head, head.map(() => '---'), ...rows].map((row) => `| ${row.join(' | ')} |`).join('\n');

@@ -1,0 +1,51 @@
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { expect, it } from 'vitest';
+import type { ProductMeasurement } from '../../src/products/measure';
+import { joinedMeasurements, readReports, writeProductPage, type ProductReport } from '../../src/products/page';
+
+const measurement = (product: string, setUpMs: number): ProductMeasurement => ({
+  product,
+  renderer: 'glanz',
+  width: 32,
+  height: 18,
+  adapter: { name: 'test', software: false },
+  stamped: true,
+  setUpMs,
+  runs: [{ samples: 10, gpuMs: 20, wallMs: 40, relMse: 0.1, relMseWithReference: 0.1, brightness: 1 }],
+  noise: [0.1],
+});
+
+const report = (...details: ProductMeasurement[]): ProductReport => ({
+  benchmark: 'products',
+  gpu: { name: 'a GPU' },
+  machine: {},
+  settings: { titles: { a: 'a bottle', b: 'a ring' }, peer: 'three-gpu-pathtracer 0.0.26' },
+  notes: [],
+  details,
+});
+
+it('joins reports: of two measurements of the same, the later one', () => {
+  const all = joinedMeasurements([report(measurement('a', 1), measurement('b', 2)), report(measurement('a', 3))]);
+  expect(all.map(({ product, setUpMs }) => [product, setUpMs])).toEqual([
+    ['a', 3],
+    ['b', 2],
+  ]);
+});
+
+it('writes the page and the figures of reports, and refuses other files', () => {
+  const folder = mkdtempSync(join(tmpdir(), 'glanz-products-'));
+  const file = join(folder, 'report.json');
+  writeFileSync(file, JSON.stringify(report(measurement('a', 1))));
+  writeProductPage(readReports([file]), [{ name: 'x' }], '12.3', folder);
+  const page = readFileSync(join(folder, 'products.md'), 'utf8');
+  expect(page).toContain('**12.3×**');
+  expect(page).toContain('Measured on a GPU;');
+  expect(page).toContain('- `a`: a bottle\n');
+  expect(page).not.toContain('a ring');
+  expect(JSON.parse(readFileSync(join(folder, 'products.json'), 'utf8'))).toMatchObject({ figures: [{ name: 'x' }] });
+  writeFileSync(file, '{"benchmark":"lights"}');
+  expect(() => readReports([file])).toThrow(expect.objectContaining({ code: 'bench/missing-data' }));
+  rmSync(folder, { recursive: true });
+});
