@@ -10,11 +10,9 @@ import type { KernelParts } from './pipelines';
 const READERS: Readonly<Record<ShapeArray, WgslModule>> = { nodes, triangles, attributes };
 
 /** The modules of `storage/` that index the arrays. */
-const ACCESSORS: ReadonlySet<string | undefined> = new Set([
-  'renderer/nodes',
-  'renderer/triangles',
-  'renderer/attribute-heap',
-]);
+const ACCESSORS: ReadonlySet<string | undefined> = new Set(
+  ['nodes', 'triangles', 'attribute-heap'].map((name) => `renderer/${name}`),
+);
 
 /**
  * A kernel that reads some arrays from textures: these are bound as textures, and where the accessors of `storage/`
