@@ -132,7 +132,12 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
   await show();
   const exr = readFileSync(
     await (
-      await renderToFile(page, { width: 33, height: 21, samples: 2, format: 'EXR, linear, with all layers and lights' })
+      await renderToFile(page, {
+        width: 33,
+        height: 21,
+        samples: 2,
+        format: 'EXR, linear, with all layers and light groups',
+      })
     ).path(),
   );
   const { width, height, channels } = decodeExr(exr);

@@ -3,13 +3,13 @@ import { byId } from './elements';
 import { spokenRate, spokenTime } from './figures';
 
 const STAGES: Readonly<Record<string, string>> = {
-  make: 'Generating the model',
-  read: 'Reading the model',
-  decode: 'Decoding the model',
-  images: 'Decoding textures',
-  bvh: 'Building the hierarchy',
-  upload: 'Uploading to the GPU',
-  compile: 'Compiling shaders',
+  make: 'Generating model',
+  read: 'Reading model',
+  decode: 'Decoding model',
+  images: 'Decoding images',
+  bvh: 'Building hierarchy',
+  upload: 'Uploading',
+  compile: 'Compiling',
 };
 
 /** The state of the render, in a line under the image and in attributes of its canvas. */
@@ -48,7 +48,7 @@ export class StatusLine {
     const calm =
       noise === undefined
         ? ''
-        : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % of the image not converged` : ''}`;
+        : ` · noise ${(100 * noise).toPrecision(2)} %${active < 1 ? `, ${Math.round(100 * active)} % noisy` : ''}`;
     const left = samplesPerSecond > 0 ? ` · ${spokenRate(samplesPerSecond)} · ${spokenTime(remainingMs)} left` : '';
     // Other states have none.
     const texts: Partial<Record<typeof state, string>> = {
@@ -56,7 +56,7 @@ export class StatusLine {
       rendering: count + left + calm,
       paused: `${count} · paused`,
       done: `${samples} sample${samples > 1 ? 's' : ''} · done${how}${calm}`,
-      recovering: 'Waiting for the GPU',
+      recovering: 'Waiting for GPU',
       failed: 'Stopped',
     };
     this.#text.textContent = texts[state] ?? '';
