@@ -3,6 +3,7 @@ import { availableParallelism } from 'node:os';
 import { fileURLToPath } from 'node:url';
 import { Worker } from 'node:worker_threads';
 import type { PngBand } from '@glanz/image/png';
+import { CliError } from '../errors';
 import type { LinearBand } from './png-bands';
 
 /** More do not help: the rest takes longer than the bands. */
@@ -14,7 +15,8 @@ const SCRIPT = fileURLToPath(new URL('./png-worker.js', import.meta.url));
 /** Has the next band made by a thread. */
 const ask = (worker: Worker, band: LinearBand): Promise<PngBand> =>
   new Promise((resolve, reject) => {
-    const ended = () => reject(new Error('A thread that compresses PNG has ended early.'));
+    const ended = () =>
+      reject(new CliError('cli/output', 'A thread that compresses the PNG file ended early: is there enough memory?'));
     worker.once('error', reject).once('exit', ended);
     worker.once('message', (made: PngBand) => {
       worker.off('error', reject).off('exit', ended);
@@ -30,6 +32,7 @@ const ask = (worker: Worker, band: LinearBand): Promise<PngBand> =>
  * @param band Copies the pixels of one.
  * @param file The script of the threads.
  * @returns The bands in their order, the same bytes as of one thread; `undefined` where there are no threads.
+ * @throws {CliError} `cli/output` where a thread ends before its band is made
  */
 export async function bandsOnThreads(
   count: number,

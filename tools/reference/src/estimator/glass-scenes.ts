@@ -61,8 +61,8 @@ const view = (position: Color, target: Color, yfov_deg: number) =>
   lookAt({ position, target, up: [0, 1, 0], yfov_deg, lens_radius: 0, focus_distance: 1 });
 
 /**
- * A room that is lit through a window: a lamp of 1.6 m outside in an even sky. The left half of the window has two solid
- * panes, tinted, the right one thin-walled pane.
+ * A room that is lit through a window: an area light of 1.6 m outside in an even sky. The left half of the window has
+ * two solid panes, tinted, the right one thin-walled pane.
  */
 function windowScene(): GlassScene {
   const scene = createScene('window');
@@ -161,7 +161,7 @@ export const GLASS_SCENES = Object.keys(SCENES) as readonly GlassSceneName[];
 
 /**
  * A scene whose reference is an image of `estimate`:
- * - `window`: a room lit through panes, solid and thin-walled, by a lamp outside;
+ * - `window`: a room lit through panes, solid and thin-walled, by an area light outside;
  * - `bottle`: glass with a liquid in it, which overlaps the glass (nested dielectrics);
  * - `gem`: a cut stone with dispersion.
  */
