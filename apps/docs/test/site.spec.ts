@@ -503,6 +503,6 @@ test('the page about hierarchies builds trees, maps their cost, shows their leve
   await done();
   await expect(live).toHaveAttribute('data-source', 'store');
   expect(await cost()).toBe(balanced);
-  await expect(live.locator('table')).toContainText('Read from this browser in');
+  await expect(live.locator('table')).toContainText('Read from the browser’s cache in');
   expect(complaints).toEqual([]);
 });
