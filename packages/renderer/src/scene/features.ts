@@ -30,6 +30,8 @@ export interface SceneChoices {
   readonly lightSampling: LightSampling;
   readonly shadowTerminator: 'smooth' | 'faceted';
   readonly backFaceCulling: BackFaceCulling;
+  /** Paths that a guide learns from, in millions; 0: there is none. */
+  readonly guiding: number;
   /** Holds the arrays of shapes that are too large for buffers. */
   readonly pages?: Pages | undefined;
 }
@@ -117,15 +119,19 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
   };
 }
 
-/** Textures that shading binds besides the scene's own: environment, its table, two energy tables. */
+/** Textures that shading always binds besides the scene's own: environment, its table, two energy tables. */
 const OWN_TEXTURES = 4;
 
 /** How the scene's textures lie in those that kernels can bind. */
-export function texturePlan(device: GPUDevice, scene: Scene, { pages }: Pick<SceneChoices, 'pages'>): TexturePlan {
+export function texturePlan(
+  device: GPUDevice,
+  scene: Scene,
+  { guiding, pages }: Pick<SceneChoices, 'guiding' | 'pages'>,
+): TexturePlan {
   return planTextures(
     scene,
     usedTextures(scene.materials),
-    device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES - (pages?.names.length ?? 0),
+    device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES - (guiding > 0 ? 1 : 0) - (pages?.names.length ?? 0),
     device.limits,
     compressedFormats(device),
   );

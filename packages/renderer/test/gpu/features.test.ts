@@ -18,6 +18,7 @@ beforeAll(async () => {
 afterAll(() => expectNoGpuErrors());
 
 const CHOICES: SceneChoices = {
+  guiding: 0,
   multipleScattering: true,
   sampler: 'blue-noise',
   lightGroups: 'named',

@@ -1,7 +1,8 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import type { Scene } from '@glanz/scene';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { PathTracer } from '../../src/index';
-import { addQuad, camera, createScene } from '../scenes';
+import { addQuad, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
 beforeAll(async () => {
@@ -67,3 +68,56 @@ it('60 textures of mixed sizes, kinds and wrap modes, within the default limits'
     color.forEach((c, k) => expect(Math.abs(pixels[at + k]! - c)).toBeLessThan(0.002 + 0.002 * c));
   });
 }, 300_000);
+
+/** A floor of tiles, each with a texture of a size of its own and of one colour, and a ceiling that light comes from. */
+function tiles(count: number): Scene {
+  const scene = createScene();
+  for (let i = 0; i < count; i++) {
+    const [width, height] = [4 + i, 3 + ((i * 7) % 11)];
+    const data = Array.from({ length: width * height }, () => [60 + 9 * i, 240 - 8 * i, 100 + 5 * i, 255]).flat();
+    scene.images.push({ name: `${i}`, width, height, data: new Uint8Array(data) });
+    // The nearest texel: sizes that share an array are resampled, which leaves one colour as it is.
+    scene.textures.push({ image: i, color_space: 'linear', filter: 'nearest' });
+    const [x, y] = [(i % 5) * 0.4 - 0.8, 0.75 - Math.floor(i / 5) * 0.5];
+    const material = {
+      name: `tile ${i}`,
+      parameters: { base_color: [1, 1, 1], specular_weight: 0 },
+      textures: { base_color: { texture: i, channels: 'rgb' } },
+    } as const;
+    addQuad(scene, 0.19, 0, material, { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1] });
+  }
+  // Beside what the camera sees, 1 m above the floor, illuminated from below: all light of the floor is indirect.
+  addQuad(scene, 0.5, 0, lambert(0.9), { transform: [1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 1.25, 0, 1, 1] });
+  scene.lights.push({
+    type: 'spot',
+    name: 'spot',
+    color: [1, 1, 1],
+    intensity: 10,
+    position: [1.25, 0, 0.3],
+    direction: [0, 0, 1],
+    inner_cone_angle: 0.5,
+    outer_cone_angle: 0.6,
+  });
+  return scene;
+}
+
+it('a guide beside as many texture arrays as the default limits leave: the image of a device with more', async () => {
+  const all = await testDevice();
+  const count = 20;
+  expect(all.limits.maxSampledTexturesPerShaderStage).toBeGreaterThan(count + 5);
+  const film = async (on: GPUDevice, guiding: number) => {
+    const size = 16;
+    const options = { width: size, height: size, camera, maxDepth: 4, pathsInFlight: 1 << 10, guiding };
+    const tracer = await PathTracer.create(on, tiles(count), options);
+    for await (const progress of tracer.render({ samples: 16 })) void progress;
+    const pixels = await tracer.read('beauty');
+    tracer.destroy();
+    return pixels;
+  };
+  const guided = await film(device, 0.01);
+  expect(guided).toEqual(await film(all, 0.01));
+  // The guide has something to do, and tiles of all colours reflect light.
+  const lit = Array.from({ length: guided.length / 4 }, (_, i) => guided[4 * i + 1]! > 0);
+  expect(lit.filter(Boolean).length).toBeGreaterThan(100);
+  expect(guided).not.toEqual(await film(device, 0));
+});
