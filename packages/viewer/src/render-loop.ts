@@ -372,10 +372,12 @@ export class RenderLoop {
       if (this.#moving) return;
     }
     await this.#denoise(tracer, signal, true);
-    if (tracer !== this.#tracer || signal.aborted || this.#moving || this.#paused) return;
+    if (tracer !== this.#tracer || signal.aborted || this.#moving) return;
     // Ended by kernels that came late and restarted the film: once more.
     if (!this.#fresh && tracer.samples === 0) return;
+    // Samples that were on their way when an earlier run was interrupted were not reported.
     this.#fresh = true;
+    if (this.#paused) return this.redraw();
     this.#done = true;
     if (keepSamples !== false) this.#keeper.offer(tracer, true);
     this.#engine.display()?.forget();

@@ -249,6 +249,41 @@ test('in a tab that is hidden repeatedly nothing is submitted, and the image com
   expect(await film()).toBe(before);
 });
 
+test('paused while the first samples of a view are on the GPU, it shows them, and goes on where it was', async ({
+  page,
+}) => {
+  // Small, so that the first batch holds a whole sample.
+  await open(page, served.origin, { pixelRatio: 0.25 });
+  const before = await shot(page);
+  for (const samples of [0, 1]) {
+    const states = await page.evaluate(async (after) => {
+      const { viewer } = window;
+      const until = async (state: string) => {
+        while (viewer.state !== state) await new Promise((resolve) => setTimeout(resolve, 10));
+      };
+      let refining = false;
+      const offs = [
+        viewer.on('state', ({ state }) => {
+          refining = state === 'rendering';
+          if (refining && after === 0) setTimeout(() => void (viewer.paused = true));
+        }),
+        viewer.on('sample', () => void (viewer.paused ||= refining && after > 0)),
+      ];
+      viewer.setOrbit({ theta: 0.3 }, { immediate: true });
+      await until('paused');
+      for (const off of offs) off();
+      const kept = viewer.sampleCount;
+      viewer.paused = false;
+      viewer.setOrbit({ theta: 0 }, { immediate: true });
+      await until('done');
+      return { kept, done: viewer.sampleCount };
+    }, samples);
+    expect(states.kept).toBeGreaterThan(0);
+    expect(states.done).toBe(12);
+  }
+  expect((await shot(page)).cells).toEqual(before.cells);
+});
+
 test('a GPU error outside of any call is reported by the error event, and the viewer keeps working', async ({
   page,
 }) => {
