@@ -58,7 +58,7 @@ const project = (
   // @aws-sdk has modules for bundlers under "module", which Node cannot load.
   ssr: {
     resolve: {
-      conditions: ['@glanz/source', 'node', ...(['cli', 'farm'].includes(name) ? [] : ['module']), 'import', 'default'],
+      conditions: ['@glanz/source', 'node', ...(/^(cli|farm)/.test(name) ? [] : ['module']), 'import', 'default'],
     },
   },
   test: {
@@ -74,43 +74,61 @@ const project = (
   },
 });
 
+/** Two projects of one folder: `isolated` names the tests that have a process each, the others share some. */
+const split = (name: string, dir: string, isolated: readonly string[]) => {
+  const include = isolated.map((test) => `test/${test}.test.ts`);
+  return [project(name, dir, { isolated: true, include }), project(`${name}-shared`, dir, { exclude: include })];
+};
+
 /**
- * Tests of the renderer that need no device, and those that compile much of the same and neither count that nor change
- * the device.
+ * They count operations, bytes or programs, wait for programs to compile, change the device or the process, or lose the
+ * device.
  */
-const SHARED = [
-  '*',
-  '{camera,device,environment,film,geometry,guiding,integrator,lights,materials,schedule,storage}/**/*',
+const RENDERER_ISOLATED = [
+  'node/**/*',
   ...[
-    'adaptive',
-    'aov-chains',
-    'aovs',
-    'area-lights',
-    'biased-options',
-    'camera',
-    'catcher',
-    'coat-silhouette',
-    'corners',
-    'delta-transmission',
-    'dispersion',
-    'film-state',
-    'filter',
-    'interiors',
-    'layers',
-    'light-eval',
-    'light-groups',
-    'light-profile',
-    'light-tree',
-    'motion',
-    'path-tracer',
-    'render-scale',
-    'shadow-terminator',
-    'smooth',
-    'spot-light',
-    'textured',
-    'transparent',
+    'bvh-builder',
+    'edits',
+    'features',
+    'first-light',
+    'launches',
+    'lost',
+    'many-instances',
+    'memory',
+    'pages',
+    'refusals',
+    'release',
+    'warm-up',
   ].map((name) => `gpu/${name}`),
-].map((name) => `test/${name}.test.ts`);
+];
+
+/** They open GPUs of their own, replace modules or parts of the process, or begin processes. */
+const CLI_ISOLATED = [
+  'compressed-textures',
+  'denoise',
+  'e2e',
+  'farm',
+  'farm-schedulers',
+  'farm-serve',
+  'png',
+  'process',
+  'recovery-gpu',
+  'video-e2e',
+  'viewer-film',
+];
+
+/** They open GPUs, replace the process's output, count garbage, or begin processes. */
+const BENCH_ISOLATED = [
+  'benchmark',
+  'bvh-brute',
+  'denoise-quality',
+  'faults/**/*',
+  'gpu-clock',
+  'motion/**/*',
+  'peers/**/*',
+  'products/run',
+  'rays',
+];
 
 export default defineConfig({
   test: {
@@ -126,7 +144,6 @@ export default defineConfig({
         'tonemap',
         'denoise',
         'image',
-        'cli',
         'farm',
         'viewer',
         'element',
@@ -134,12 +151,13 @@ export default defineConfig({
         'three',
         'denoise-weights',
         'create-glanz',
-      ].map((name) => project(name, `packages/${name}`, { isolated: ['cli', 'denoise'].includes(name) })),
-      project('renderer', 'packages/renderer', { isolated: true, exclude: SHARED }),
-      project('renderer-shared', 'packages/renderer', { include: SHARED }),
+      ].map((name) => project(name, `packages/${name}`, { isolated: name === 'denoise' })),
+      ...split('cli', 'packages/cli', CLI_ISOLATED),
+      ...split('renderer', 'packages/renderer', RENDERER_ISOLATED),
       project('docs', 'apps/docs'),
-      ...['models', 'gallery', 'bench', 'reference', 'gpu', 'operations', 'pipeline', 'redis'].map((name) =>
-        project(`tools-${name}`, `tools/${name}`, { isolated: ['bench', 'pipeline'].includes(name) }),
+      ...split('tools-bench', 'tools/bench', BENCH_ISOLATED),
+      ...['models', 'gallery', 'reference', 'gpu', 'operations', 'pipeline', 'redis'].map((name) =>
+        project(`tools-${name}`, `tools/${name}`),
       ),
       project('playground', 'apps/playground'),
     ],
