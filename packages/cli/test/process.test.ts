@@ -5,8 +5,10 @@ import { fileURLToPath } from 'node:url';
 import { decodeExr } from '@glanz/image';
 import sharp from 'sharp';
 import { beforeAll, describe, expect, it } from 'vitest';
-import { temporaryFolder } from './fakes';
+import { runCli } from '../src/index';
+import { fakeIo, temporaryFolder } from './fakes';
 import { makeGlb } from './glb';
+import { keptBackend } from './kept-gpu';
 import { bundleProgram } from './program';
 
 // The program as a process of its own: real signals, real streams, a real exit status. Bundled here from the sources,
@@ -48,6 +50,15 @@ function start(
     child.on('error', reject);
     child.on('close', (code, signal) => resolve({ code, signal, out, err }));
   });
+}
+
+const backend = keptBackend();
+
+/** The command in this process, for what another is compared with or reads: it compiles its programs once. */
+async function here(argv: readonly string[], cwd: string): Promise<Ended> {
+  const io = fakeIo(cwd);
+  const code = await runCli(argv, io, backend);
+  return { code, signal: null, out: io.out.join(''), err: io.err.join('') };
 }
 
 it('--version, at once and by itself', async () => {
@@ -198,7 +209,7 @@ describe('the GPU is lost', () => {
 
   it('and comes back: exit status 0, and the same files bit for bit', async () => {
     const [whole, cwd] = [folderWithModel(), folderWithModel()];
-    expect((await start(argv, whole)).code).toBe(0);
+    expect((await here(argv, whole)).code).toBe(0);
     const { code, out, err } = await start(argv, cwd, undefined, undefined, {
       GPU_WEBGPU: dawn,
       GLANZ_TEST_LOSE_AT: '9',
@@ -314,7 +325,7 @@ it('a batch that is killed resumes, and its images are those of runs of their ow
     ['green', 'iso', 'green-iso'],
     ['red', 'front', 'red-front'],
   ] as const) {
-    const alone = await start(
+    const alone = await here(
       ['render', 'shoe.glb', '--variant', variant, '--view', view, '-o', 'alone.png', '--bits', '16', ...quality],
       cwd,
     );
@@ -372,19 +383,19 @@ describe('glanz merge', () => {
     return (name: string) => channels.get(name)!.data;
   };
 
-  it('makes of samples 0–49 and 50–99, each from a process of its own, the image of 0–99; and a film again', async () => {
+  it('makes of samples 0–49 and 50–99, these from another process, the image of 0–99; and a film again', async () => {
     const cwd = temporaryFolder({ 'red.glb': makeGlb({ camera: true }) });
     const runs = [
       ['--samples', '100', '-o', 'whole.exr', '--bits', '32'],
       ['--samples', '50', '-o', 'a.film'],
       ['--samples-from', '50', '--samples', '50', '-o', 'b.film', '-o', 'b.png'],
     ];
-    for (const run of runs) {
-      const { code, err } = await start(['render', ...options, ...run], cwd);
+    for (const [i, run] of runs.entries()) {
+      const { code, err } = await (i === 2 ? start : here)(['render', ...options, ...run], cwd);
       expect(code, err).toBe(0);
     }
     const outputs = ['-o', 'merged.exr', '-o', 'merged.hdr', '-o', 'all.film', '--bits', '32', '--json'];
-    const { code, out, err } = await start(['merge', 'b.film', 'a.film', ...outputs], cwd);
+    const { code, out, err } = await here(['merge', 'b.film', 'a.film', ...outputs], cwd);
     expect(code, err).toBe(0);
     expect(JSON.parse(out)).toMatchObject({ ok: true, samples: 100, ranges: [[0, 100]], width: 16, height: 12 });
     const [whole, merged] = [pixels(join(cwd, 'whole.exr')), pixels(join(cwd, 'merged.exr'))];
@@ -397,7 +408,7 @@ describe('glanz merge', () => {
 
     // The merged film is a checkpoint that the same command resumes.
     const more = ['render', ...options, '--samples', '110', '--checkpoint', 'all.film', '-o', 'more.png'];
-    const resumed = await start(more, cwd);
+    const resumed = await here(more, cwd);
     expect([resumed.code, resumed.err.includes('going on from sample 100')], resumed.err).toEqual([0, true]);
   });
 
@@ -408,7 +419,7 @@ describe('glanz merge', () => {
       ['b', '2'],
     ]) {
       const argv = ['render', ...options, '--samples', '2', '--seed', seed!, '-o', `${name}.film`];
-      expect((await start(argv, cwd)).code).toBe(0);
+      expect((await here(argv, cwd)).code).toBe(0);
     }
     const film = readFileSync(join(cwd, 'a.film'));
     film[film.length - 5]! ^= 1;
@@ -420,7 +431,7 @@ describe('glanz merge', () => {
       [['gone.film'], 3, 'there is no such file'],
       [['a.film', 'a.film'], 1, 'two have sample 0'],
     ] as const) {
-      const ended = await start(['merge', ...files, '-o', 'x.png'], cwd);
+      const ended = await here(['merge', ...files, '-o', 'x.png'], cwd);
       expect([ended.code, ended.err], ended.err).toEqual([code, expect.stringContaining(message)]);
       expect(existsSync(join(cwd, 'x.png'))).toBe(false);
     }
