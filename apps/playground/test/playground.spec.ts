@@ -484,9 +484,13 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   }).toPass({ timeout: 30_000 });
 
   // A link cannot hold the file: the page says so when it is made and when it is opened.
-  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await page.getByRole('button', { name: 'Share' }).click();
   await expect(page.locator('#share-note')).toContainText('red room.hdr');
+  await page.locator('#copy-link').click();
+  await expect(errorWith(page, 'playground/clipboard')).toContainText(`copy. The link: ${origin}/#`);
+  await page.locator('#copy-code').click();
+  await expect(errorWith(page, 'playground/clipboard').last()).toContainText('Select the code in the menu');
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await page.locator('#copy-link').click();
   await expect(page.locator('#messages [role=status]', { hasText: 'on the clipboard' })).toContainText(
     'does not contain the environment "red room.hdr"',

@@ -1,5 +1,6 @@
 import type { ImageProgress } from '@glanz/viewer';
 import { MAX_ADAPTIVE_SAMPLES } from '@glanz/renderer/options';
+import { toClipboard } from '../output/clipboard';
 import { download } from '../output/save';
 import { LIMITS } from '../state/limits';
 import { element } from './elements';
@@ -167,7 +168,10 @@ export function showRenderDialog(host: RenderHost): void {
       void run(async (signal) => {
         const blob = render(signal);
         // Written at once, while the browser still counts the click: the item waits for the image.
-        const written = navigator.clipboard.write([new ClipboardItem({ 'image/png': blob })]);
+        const written = toClipboard(
+          () => navigator.clipboard.write([new ClipboardItem({ 'image/png': blob })]),
+          'Save the image to a file.',
+        );
         written.catch(() => undefined);
         await blob;
         await written;

@@ -1,3 +1,4 @@
+import { toClipboard } from '../output/clipboard';
 import type { CodeKind } from '../output/snippets';
 import { encodeLink, linkContent, LONGEST_LINK, type LinkContent } from '../state/link';
 import { textForSender } from '../state/link-texts';
@@ -19,8 +20,14 @@ async function linkTo(context: Context): Promise<string> {
   return `${location.origin}${location.pathname}#${link}`;
 }
 
-async function copy(text: string, say: (text: string) => void, what: string, more = ''): Promise<void> {
-  await navigator.clipboard.writeText(text);
+async function copy(
+  text: string,
+  say: (text: string) => void,
+  what: string,
+  instead: string,
+  more = '',
+): Promise<void> {
+  await toClipboard(() => navigator.clipboard.writeText(text), instead);
   say(`${what} is on the clipboard. ${more}`.trim());
 }
 
@@ -73,6 +80,7 @@ export function shareMenu(context: Context): HTMLElement[] {
           link,
           say,
           link.length > LONGEST_LINK ? 'The link, which is too long for some programs,' : 'The link',
+          `The link: ${link}`,
           leftOutOf(context),
         );
       },
@@ -84,7 +92,7 @@ export function shareMenu(context: Context): HTMLElement[] {
       'copy-code',
       'Copy code',
       'Code that shows this scene',
-      () => copy(code.textContent ?? '', say, 'The code'),
+      () => copy(code.textContent ?? '', say, 'The code', 'Select the code in the menu to copy it.'),
       fail,
     ),
     kind,

@@ -1,6 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
-import { toneMapPixels } from '@glanz/tonemap';
-import { layerImage, type Layer } from '../output/layers';
+import type { Layer } from '../output/layers';
 
 /** A layer is read again whenever there are so many times more samples, up to the maximum that layers average. */
 const GROWTH = 4;
@@ -60,17 +59,12 @@ export class LayerView {
     this.#busy = true;
     try {
       const { width, height } = tracer;
-      const image = layerImage(layer, await tracer.read(layer));
-      if (tracer !== this.#source.tracer() || image.length !== width * height * 4 || layer !== this.#requested) return;
+      const [{ layerPixels }, data] = await Promise.all([import('../output/layer-image'), tracer.read(layer)]);
+      if (tracer !== this.#source.tracer() || tracer.width !== width || tracer.height !== height) return;
+      if (layer !== this.#requested) return;
       this.#canvas.width = width;
       this.#canvas.height = height;
-      this.#canvas
-        .getContext('2d')
-        ?.putImageData(
-          new ImageData(toneMapPixels(image, width, height, { toneMap: 'linear', alpha: 'opaque' }), width, height),
-          0,
-          0,
-        );
+      this.#canvas.getContext('2d')?.putImageData(layerPixels(layer, data, width, height), 0, 0);
       this.#canvas.hidden = false;
       this.#source.shown(layer);
     } catch (error) {
