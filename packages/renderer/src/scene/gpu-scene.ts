@@ -25,6 +25,8 @@ import type { MeshRegion } from '../geometry/hierarchy';
 import type { NodeRange } from '../geometry/placement';
 import type { TexturePlan } from '../materials/textures';
 import type { GpuMemory, PagedArray } from '../storage/buffers';
+import { choosePages } from '../storage/choose-pages';
+import type { Pages } from '../storage/paged/pages';
 import type { ShapeArray } from '../storage/shape-arrays';
 import { uploadEnergyTextures, type EnergyTextures } from '../materials/energy-textures';
 import { fillEnvironmentTextures, makeEnvironmentTextures } from '../environment/environment-textures';
@@ -98,7 +100,7 @@ export class GpuScene {
 
   /** Arrays of shapes that lie in textures. */
   get pages(): readonly ShapeArray[] | undefined {
-    return this.#choices.pages?.names;
+    return this.#resources.pages?.names;
   }
 
   get groups(): LightGroupTable {
@@ -162,7 +164,8 @@ export class GpuScene {
 
   #deriveFeatures(): KernelFeatures {
     const { count, tree, profiles, areaCount } = this.#lights.table;
-    return sceneFeatures(this.#scene, this.#choices, {
+    const choices = { ...this.#choices, pages: this.#resources.pages };
+    return sceneFeatures(this.#scene, choices, {
       textured: this.#materials.textured,
       plan: this.#plan,
       groups: this.groups.names.length,
@@ -279,8 +282,14 @@ export class GpuScene {
     for (const { buffer, offset, data } of slices) this.#resources.write(buffer, data, offset);
   }
 
-  /** All shapes are new. Bindings are replaced. */
-  updateShapes(geometry: Geometry, slices: Iterable<ShapeSlice>): void {
+  /** Where the arrays of shapes will lie. @throws As {@link choosePages}. */
+  pagesOf(scene: Scene, geometry: Geometry): Promise<Pages | undefined> {
+    return choosePages(this.#device, shapeBytes(scene, geometry), this.#resources.pages);
+  }
+
+  /** All shapes are new. Bindings are replaced. @param pages See {@link pagesOf}. */
+  updateShapes(geometry: Geometry, slices: Iterable<ShapeSlice>, pages: Pages | undefined): void {
+    this.#resources.pages = pages;
     this.#setGeometry(geometry);
     this.#makeShapes(geometry);
     this.writeShapes(joinSlices(slices));

@@ -378,9 +378,10 @@ export class SceneEditor {
       await this.#build(next);
       const geometry = layOutGeometry(next, this.#blas(next));
       const packed = await packGeometry(next, geometry);
+      const pages = await this.#gpu.pagesOf(next, geometry);
       if (version !== this.#version) continue;
       return this.#commit(next, geometry, () => {
-        this.#gpu.updateShapes(geometry, packed);
+        this.#gpu.updateShapes(geometry, packed, pages);
         return true;
       });
     }

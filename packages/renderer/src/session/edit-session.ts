@@ -39,14 +39,15 @@ interface Made {
  * 1. It is applied to the scene and the GPU's copy. If that took memory, batches and further edits wait until the GPU
  * has
  *    granted it (some milliseconds); else the edit is taken back, and the film goes on as if nothing had happened.
- * 2. If it needs other kernels, they compile while the old ones go on rendering. Should they fail, this edit and all
- * that
- *    were made since are taken back.
+ * 2. If it needs other kernels, they compile while the old ones go on rendering, but where they could not bind the
+ *    scene any more. Should they fail, this edit and all that were made since are taken back.
  */
 export class EditSession {
   readonly #host: EditHost;
   /** Settles, and never rejects, when the GPU has looked at what is being changed. */
   #verifying: Promise<void> | undefined;
+  /** Settles when an edit is made whose bindings the kernels before cannot take. */
+  #switching: Promise<void> | undefined;
   /** Edits that wait for kernels, oldest first. */
   #made: Made[] = [];
   /** The kernels that the newest of them need. */
@@ -61,7 +62,7 @@ export class EditSession {
 
   /** Settles when batches may be submitted again; `undefined`: now. */
   get verifying(): Promise<void> | undefined {
-    return this.#verifying;
+    return this.#switching ?? this.#verifying;
   }
 
   /**
@@ -74,9 +75,16 @@ export class EditSession {
     for (;;) {
       const prepared = prepare();
       const change = prepared instanceof Promise ? await prepared : prepared;
-      while (this.#verifying) await this.#verifying;
+      while (this.verifying) await this.verifying;
       if (this.#host.memory.destroyed) return;
-      if (!change.isStale()) return this.#make(change);
+      if (change.isStale()) continue;
+      const { gpuScene } = this.#host;
+      const { pages } = gpuScene;
+      const made = this.#make(change);
+      // Arrays lie in textures from now on: no batch until there are kernels that read them.
+      const end = () => (this.#switching = undefined);
+      if (gpuScene.pages !== pages) this.#switching = made.then(end, end);
+      return made;
     }
   }
 

@@ -33,16 +33,17 @@ type SceneResource = GPUBuffer | GPUTexture | PagedArray;
  * holds.
  */
 export class SceneResources {
+  /** Holds the arrays that are too large for buffers, from when they are made on. */
+  pages: Pages | undefined;
   readonly #memory: GpuMemory;
-  readonly #pages: Pages | undefined;
   readonly #buffers = new Map<ResourceName, GPUBuffer | PagedArray>();
   readonly #textures = new Map<ResourceName, GPUTexture>();
   #log: { readonly made: SceneResource[]; readonly replaced: SceneResource[] } | undefined;
 
-  /** @param pages Holds the arrays that are too large for buffers. */
+  /** @param pages See {@link pages}. */
   constructor(memory: GpuMemory, pages?: Pages) {
     this.#memory = memory;
-    this.#pages = pages;
+    this.pages = pages;
   }
 
   buffer(name: ResourceName): GPUBuffer | PagedArray | undefined {
@@ -56,7 +57,7 @@ export class SceneResources {
   /** Creates a storage buffer of this name and replaces the present one. */
   make(name: ResourceName, bytes: number): GPUBuffer | PagedArray {
     const buffer =
-      this.#pages?.make(this.#memory, name, bytes) ??
+      this.pages?.make(this.#memory, name, bytes) ??
       this.#memory.buffer(name, bytes, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC);
     this.#replace(this.#buffers, name, buffer);
     return buffer;
@@ -97,8 +98,9 @@ export class SceneResources {
    */
   record<T>(edit: () => T, undone: () => void): ResourceLog & { readonly result: T } {
     const log = { made: [] as SceneResource[], replaced: [] as SceneResource[] };
-    const [buffers, textures] = [[...this.#buffers], [...this.#textures]];
+    const [buffers, textures, pages] = [[...this.#buffers], [...this.#textures], this.pages];
     const undo = () => {
+      this.pages = pages;
       for (const [name, buffer] of buffers) this.#buffers.set(name, buffer);
       for (const [name, texture] of textures) this.#textures.set(name, texture);
       for (const resource of log.made) this.#memory.release(resource);

@@ -299,19 +299,120 @@ describe('arrays larger than a binding', () => {
     expect(made).toEqual([]);
   });
 
-  it('cannot grow out of a buffer in an edit, which leaves the scene as it is', async () => {
+  /** A ball in buffers, and one for it whose arrays are larger than a binding. */
+  function growing() {
     const scene = createScene();
     addSphere(scene, 0.3, [0, 0, 0], lambert(0.7), 16);
     scene.environment = { type: 'constant', radiance: [0.6, 0.7, 0.8] };
-    const { device: small, shapes } = limited();
-    const tracer = await PathTracer.create(small, scene, options);
-    const before = await film(tracer);
-    expect(shapes()).toEqual(['buffer attributes', 'buffer nodes', 'buffer triangles']);
     const other = createScene();
-    addSphere(other, 0.3, [0, 0, 0], lambert(0.7), 64);
-    await expect(tracer.replaceMesh(0, other.meshes[0] as Mesh)).rejects.toMatchObject({ code: 'renderer/limit' });
-    await tracer.reset();
-    expect(await film(tracer)).toEqual(before);
+    addSphere(other, 0.4, [0.1, 0, 0], lambert(0.7), 64);
+    const mesh = other.meshes[0] as Mesh;
+    return { scene, mesh, grown: { ...scene, meshes: [mesh] } };
+  }
+  const BUFFERS = ['buffer attributes', 'buffer nodes', 'buffer triangles'];
+  const TEXTURES = ['texture attributes', 'texture nodes', 'texture triangles'];
+
+  it('grow out of buffers in an edit, also while a render runs, and shrink in textures', async () => {
+    const { scene, mesh, grown } = growing();
+    const { device: small, shapes, live } = limited();
+    const aovs = ['normal', 'objectId'] as const;
+    const tracer = await PathTracer.create(small, scene, { ...options, aovs });
+    expect(shapes()).toEqual(BUFFERS);
+    // Kernels that read textures come late: what renders meanwhile must not bind these to the kernels before.
+    const create = device.createComputePipelineAsync;
+    let late = 0;
+    device.createComputePipelineAsync = async (of) => {
+      late++;
+      await new Promise((resolve) => setTimeout(resolve, 100));
+      return create.call(device, of);
+    };
+    let done = false;
+    const edit = tracer.replaceMesh(0, mesh).finally(() => (done = true));
+    while (!done) {
+      for await (const _ of tracer.render({ samples: 200, maxSubmitMs: 1 }));
+      await Promise.race([edit, new Promise((resolve) => setTimeout(resolve, 1))]);
+    }
+    device.createComputePipelineAsync = create;
+    expect(late).toBeGreaterThan(0);
+    await edit;
+    expect(shapes()).toEqual(TEXTURES);
+    expect(await film(tracer)).toEqual(await fresh(device, grown));
+    const plain = await PathTracer.create(device, grown, { ...options, aovs });
+    await film(plain);
+    for (const name of aovs)
+      expect(await readAov(small, tracer, name), name).toEqual(await readAov(device, plain, name));
+    plain.destroy();
+    await tracer.replaceMesh(0, scene.meshes[0] as Mesh);
+    expect(shapes()).toEqual(TEXTURES);
+    expect(await film(tracer)).toEqual(await fresh(device, scene));
     tracer.destroy();
+    expect([...live.values()]).toEqual([]);
+  });
+
+  it('grow one by one, and beside edits that are made meanwhile', async () => {
+    const { scene, mesh, grown } = growing();
+    const bytes = shapeBytes(grown, await prepareGeometry(grown));
+    const maxStorageBufferBindingSize = 16 * Math.ceil(Math.max(bytes.nodes, bytes.attributes) / 16);
+    expect(bytes.triangles).toBeGreaterThan(maxStorageBufferBindingSize);
+    const { device: small, shapes } = limited({ ...SMALL, maxStorageBufferBindingSize });
+    const tracer = await PathTracer.create(small, scene, options);
+    const turned = place(0.2, 0, 0, 0.9);
+    await Promise.all([
+      tracer.replaceMesh(0, mesh),
+      tracer.setMaterial(0, { coat_weight: 1 }),
+      tracer.setInstanceTransform(0, turned),
+    ]);
+    expect(shapes()).toEqual(['buffer attributes', 'buffer nodes', 'texture triangles']);
+    const [material, instance] = [grown.materials[0]!, grown.instances[0]!];
+    const expected = {
+      ...grown,
+      materials: [{ ...material, parameters: { ...material.parameters, coat_weight: 1 } }],
+      instances: [{ ...instance, transform: turned }],
+    };
+    expect(await film(tracer)).toEqual(await fresh(device, expected));
+    // A mesh beside it: now its nodes are too many as well.
+    const larger = createScene();
+    addSphere(larger, 0.4, [0, 0, 0], lambert(0.7), 100);
+    const next = larger.meshes[0] as Mesh;
+    await tracer.replaceMesh(0, next);
+    expect(shapes()).toContain('texture nodes');
+    expect(await film(tracer)).toEqual(await fresh(device, { ...expected, meshes: [next] }));
+    tracer.destroy();
+  });
+
+  it('stay in buffers, with the scene as it was, where the grown ones are refused', async () => {
+    const { scene, mesh, grown } = growing();
+    // What textures of one layer hold is less than the mesh takes.
+    const { device: tiny, shapes: shapesOf } = limited({ ...SMALL, maxTextureArrayLayers: 1 });
+    const first = await PathTracer.create(tiny, scene, options);
+    const before = await film(first);
+    await expect(first.replaceMesh(0, mesh)).rejects.toMatchObject({ code: 'renderer/limit' });
+    expect(shapesOf()).toEqual(BUFFERS);
+    await first.reset();
+    expect(await film(first)).toEqual(before);
+    first.destroy();
+
+    // The driver refuses the kernels that read textures, once.
+    const { device: small, shapes, live } = limited();
+    const tracer = await PathTracer.create(small, scene, options);
+    let refusals = 0;
+    const create = device.createComputePipelineAsync;
+    device.createComputePipelineAsync = (of) => {
+      if (!/intersect/.test(of.label ?? '') || refusals++ > 0) return create.call(device, of);
+      return Promise.reject(new Error('refused for a test'));
+    };
+    try {
+      await expect(tracer.replaceMesh(0, mesh)).rejects.toMatchObject({ code: 'renderer/gpu-error' });
+    } finally {
+      device.createComputePipelineAsync = create;
+    }
+    expect(refusals).toBeGreaterThan(0);
+    expect(shapes()).toEqual(BUFFERS);
+    expect(await film(tracer)).toEqual(before);
+    await tracer.replaceMesh(0, mesh);
+    expect(shapes()).toEqual(TEXTURES);
+    expect(await film(tracer)).toEqual(await fresh(device, grown));
+    tracer.destroy();
+    expect([...live.values()]).toEqual([]);
   });
 });

@@ -157,14 +157,17 @@ export class Pages {
    * @param bytes What the arrays of a scene take.
    * @param bindingBytes What a shader can bind of a buffer: less than one of them takes.
    * @param Fault The class of errors.
+   * @param present Its arrays lie in textures in any case.
    * @throws {DeviceError} `renderer/limit` where textures do not hold them either.
    */
-  constructor(device: GPUDevice, bytes: ShapeBytes, bindingBytes: number, Fault: typeof DeviceError) {
+  constructor(device: GPUDevice, bytes: ShapeBytes, bindingBytes: number, Fault: typeof DeviceError, present?: Pages) {
     this.#device = device;
     this.#Fault = Fault;
     this.#shape = pageShape(device);
     const entries = Object.entries(bytes) as [ShapeArray, number][];
-    this.names = entries.filter(([, size]) => size > bindingBytes).map(([name]) => name);
+    this.names = entries
+      .filter(([name, size]) => size > bindingBytes || present?.names.includes(name))
+      .map(([name]) => name);
     for (const [, size] of entries) this.#expectRoom(size, bytes);
   }
 
