@@ -452,40 +452,44 @@ describe('WGSL at the edges', () => {
       );
     });
     const results = await onGpu(ALL, list);
+    // Messages are made where something is wrong only: there are thousands of cases.
+    const faults: string[] = [];
     results.forEach((result, i) => {
-      const { wo, wi, parameters } = list[i] as GpuCase;
-      const at = `wo ${wo.join(' ')}, wi ${wi.join(' ')}, ${JSON.stringify(surfaces[Math.floor(i / directions.length ** 2)])}`;
+      const { wo, wi, u, side, parameters } = list[i] as GpuCase;
+      const check = (holds: boolean, what: string): void => {
+        if (holds) return;
+        const surface = JSON.stringify(surfaces[Math.floor(i / directions.length ** 2)]);
+        faults.push(`${what} at wo ${wo.join(' ')}, wi ${wi.join(' ')}, ${surface}`);
+      };
       for (const [name, value] of Object.entries(result)) {
         if (typeof value === 'boolean') continue;
-        for (const one of [value].flat() as number[]) {
-          expect(Number.isFinite(one), `${name} is ${one} at ${at}`).toBe(true);
-          if (name !== 'wi') expect(one, `${name} at ${at}`).toBeGreaterThanOrEqual(0);
-        }
+        for (const one of [value].flat() as number[])
+          check(Number.isFinite(one) && (name === 'wi' || one >= 0), `${name} is ${one}`);
       }
       const clear = parameters.transmission_weight + parameters.subsurface_weight > 0;
-      if (wo[2] <= 0 || (wi[2] <= 0 && !clear)) expect([...result.f, result.pdf], at).toEqual([0, 0, 0, 0]);
-      if (wo[2] <= 0)
-        expect([result.valid, ...result.weight, ...result.albedo, ...result.emission], at).toEqual([
-          false,
-          0,
-          0,
-          0,
-          0,
-          0,
-          0,
-          0,
-          0,
-          0,
-        ]);
+      if (wo[2] <= 0 || (wi[2] <= 0 && !clear))
+        check(
+          [...result.f, result.pdf].every((x) => Object.is(x, 0)),
+          `value and density are ${result.f.join(' ')} ${result.pdf}`,
+        );
+      if (wo[2] <= 0) {
+        const dark = [...result.weight, ...result.albedo, ...result.emission];
+        check(
+          !result.valid && dark.every((x) => Object.is(x, 0)),
+          `valid is ${result.valid}, the rest ${dark.join(' ')}`,
+        );
+      }
       // The CPU twin holds the same promise.
-      const b = prepareBsdf(parameters, wo, (list[i] as GpuCase).side);
+      const b = prepareBsdf(parameters, wo, side);
       for (const one of [
         ...evalBsdf(b, wo, wi),
         pdfBsdf(b, wo, wi),
         ...albedoBsdf(b, wo),
-        ...sampleBsdf(b, wo, (list[i] as GpuCase).u).weight,
+        ...sampleBsdf(b, wo, u).weight,
       ])
-        expect(Number.isFinite(one) && one >= 0, `${one} on the CPU at ${at}`).toBe(true);
+        check(Number.isFinite(one) && one >= 0, `${one} on the CPU`);
     });
+    expect(results.length).toBe(surfaces.length * directions.length ** 2);
+    expect(faults).toEqual([]);
   });
 });
