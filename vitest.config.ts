@@ -11,6 +11,9 @@ const LONG = [
   'gpu/adaptive',
   'gpu/dispersion',
   'cli/test/recovery-gpu',
+  // Most of their time passes in processes that they begin.
+  'cli/test/farm.test',
+  'cli/test/process',
   'denoise/test/denoiser',
   'denoise/test/oracle',
   'openpbr/test/oracle',
