@@ -68,6 +68,8 @@ declare module 'gl-matrix/esm/quat.js' {
   export function fromEuler(out: Quaternion, x: number, y: number, z: number, order: 'zyx'): Quaternion;
   /** Radians about a unit axis. */
   export function setAxisAngle(out: Quaternion, axis: Q, angle: number): Quaternion;
+  /** Of a rotation as a column-major 3 × 3 matrix. */
+  export function fromMat3(out: Quaternion, m: Q): Quaternion;
   /** a · b: b first, then a. */
   export function multiply(out: Quaternion, a: Q, b: Q): Quaternion;
 }

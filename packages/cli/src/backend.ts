@@ -14,7 +14,7 @@ export type Tracer = Pick<
   | 'reset'
   | 'setCamera'
   | 'setVariant'
-  | 'setInstanceTransform'
+  | 'setInstanceTransforms'
   | 'setVisibility'
   | 'setLight'
   | 'replaceMesh'

@@ -204,7 +204,9 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         fake.onEdit?.('variant', variant, device as FakeDevice);
         edited('variant', variant);
       },
-      setInstanceTransform: async (instance: number, transform: unknown) => edited(`instance ${instance}`, transform),
+      setInstanceTransforms: async (list: readonly (readonly [number, unknown])[]) => {
+        for (const [instance, transform] of list) edited(`instance ${instance}`, transform);
+      },
       lightGroups: fake.lightGroups ?? [{ name: 'rest', intensity: 1, color: [1, 1, 1] }],
       async readLightGroup(name: string) {
         return interleaved((_x, _y, k) => (k === 3 ? 1 : name.length));

@@ -72,7 +72,22 @@ export abstract class TracerEdits {
    * to see.
    */
   setInstanceTransform(nameOrIndex: string | number, transform: ArrayLike<number>): Promise<void> {
-    return this.edit((editor) => editor.setTransform(nameOrIndex, transform));
+    return this.setInstanceTransforms([[nameOrIndex, transform]]);
+  }
+
+  /**
+   * Moves several parts as one edit: what {@link setInstanceTransform} does for each, but the film restarts once, and the
+   * GPU checks once. Of a part that is listed more than once, the last transform counts.
+   *
+   * @param list Names or indices with transforms.
+   * @throws {RenderError} As {@link setInstanceTransform}; nothing has moved then.
+   * @example
+   * await tracer.setInstanceTransforms([['lid', lidAt(time)], ['wheel', wheelAt(time)]]);
+   */
+  setInstanceTransforms(
+    list: readonly (readonly [nameOrIndex: string | number, transform: ArrayLike<number>])[],
+  ): Promise<void> {
+    return this.edit((editor) => editor.setTransforms(list));
   }
 
   /**

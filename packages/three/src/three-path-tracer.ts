@@ -53,7 +53,7 @@ const NOTHING: ThreeChanges = { camera: false, instances: 0, meshes: 0, material
  * | changed in three | costs |
  * |---|---|
  * | the camera | `setCamera` |
- * | world matrices of meshes, matrices of an `InstancedMesh` or `BatchedMesh` | `setInstanceTransform` of each that moved |
+ * | world matrices of meshes, matrices of an `InstancedMesh` or `BatchedMesh` | `setInstanceTransforms` of those that moved |
  * | `visible`, an object removed, or added again | `setVisibility` |
  * | numbers and colours of a material | `setMaterial` |
  * | another material that the scene has already | `setInstanceMaterial` |
@@ -289,7 +289,9 @@ export class ThreePathTracer {
       ...(edits.shown.length > 0 ? [tracer.setVisibility(edits.shown, true)] : []),
       ...(edits.hidden.length > 0 ? [tracer.setVisibility(edits.hidden, false)] : []),
       ...edits.assigned.map(({ instance, material }) => tracer.setInstanceMaterial(instance, material)),
-      ...edits.transforms.map(({ instance, transform }) => tracer.setInstanceTransform(instance, transform)),
+      ...(edits.transforms.length > 0
+        ? [tracer.setInstanceTransforms(edits.transforms.map(({ instance, transform }) => [instance, transform]))]
+        : []),
       ...edits.lights.map(({ index, light }) => tracer.setLight(index, light)),
     ];
     if (edits.environment) work.push(this.#updateEnvironment(edits).then(() => this.#updateBackground()));

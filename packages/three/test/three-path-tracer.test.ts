@@ -10,7 +10,7 @@ const EDITS = [
   'setLight',
   'setEnvironment',
   'adjustEnvironment',
-  'setInstanceTransform',
+  'setInstanceTransforms',
   'setInstanceMaterial',
   'setVisibility',
   'replaceMesh',
@@ -97,10 +97,10 @@ describe('ThreePathTracer', () => {
     expect(follower.samples).toBe(0);
 
     balls[1]!.position.y = 0.3;
-    expect((await changed()).calls).toEqual({ setInstanceTransform: 1 });
+    expect((await changed()).calls).toEqual({ setInstanceTransforms: 1 });
     crowd.setMatrixAt(2, new THREE.Matrix4().makeTranslation(0.2, 0, 0.9));
     crowd.instanceMatrix.needsUpdate = true;
-    expect((await changed()).calls).toEqual({ setInstanceTransform: 1 });
+    expect((await changed()).calls).toEqual({ setInstanceTransforms: 1 });
 
     red.color.setRGB(0, 1, 0);
     red.clearcoat = 0;

@@ -267,9 +267,13 @@ const applyPlacements = (
   { transforms, visibility, lights }: PoseChange,
   place: readonly number[] | undefined,
 ): Promise<void>[] => [
-  ...transforms.map(({ instance, transform }) =>
-    tracer.setInstanceTransform(instance, place ? placed(place, transform) : transform),
-  ),
+  ...(transforms.length > 0
+    ? [
+        tracer.setInstanceTransforms(
+          transforms.map(({ instance, transform }) => [instance, place ? placed(place, transform) : transform]),
+        ),
+      ]
+    : []),
   ...visibility.map(({ instance, visible }) => tracer.setVisibility(instance, visible)),
   ...lights.map(({ index, light }) => tracer.setLight(index, place ? placedLight(place, light) : light)),
 ];

@@ -151,7 +151,7 @@ async function changeStage(tracer: PathTracer, from: Stage, to: Stage): Promise<
     const back = invert(identity(), (from.transform ?? identity()) as number[]) ?? identity();
     const change = placed(to.transform ?? identity(), back);
     instances = instances.map((instance) => ({ ...instance, transform: placed(change, instance.transform) }));
-    instances.forEach(({ transform }, index) => edits.push(tracer.setInstanceTransform(index, transform)));
+    edits.push(tracer.setInstanceTransforms(instances.map(({ transform }, index) => [index, transform])));
     scene.lights.forEach((light, index) => edits.push(tracer.setLight(index, placedLight(change, light))));
   }
   if (model !== scene) {

@@ -9,11 +9,13 @@ import { cameraOf } from '../views';
 
 /** Brings a tracer's scene to a pose. */
 export async function applyPose(
-  tracer: Pick<Tracer, 'setInstanceTransform' | 'setVisibility' | 'setLight' | 'replaceMesh'>,
+  tracer: Pick<Tracer, 'setInstanceTransforms' | 'setVisibility' | 'setLight' | 'replaceMesh'>,
   { transforms, visibility, lights, meshes }: PoseChange,
 ): Promise<void> {
   await Promise.all([
-    ...transforms.map(({ instance, transform }) => tracer.setInstanceTransform(instance, transform)),
+    ...(transforms.length > 0
+      ? [tracer.setInstanceTransforms(transforms.map(({ instance, transform }) => [instance, transform]))]
+      : []),
     ...visibility.map(({ instance, visible }) => tracer.setVisibility(instance, visible)),
     ...lights.map(({ index, light }) => tracer.setLight(index, light)),
     ...meshes.map(({ mesh, deformed }) => tracer.replaceMesh(mesh, deformed)),

@@ -146,18 +146,27 @@ export class SceneEditor {
     return this.#environment.adjust(change);
   }
 
-  setTransform(nameOrIndex: string | number, transform: ArrayLike<number>): SceneChange | Promise<SceneChange> {
-    if (transform.length !== 16 || !Array.from(transform).every(Number.isFinite))
-      throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
-    const which = this.#instances(nameOrIndex);
-    const after = Array.from(transform);
-    const before = which.map((index) => (this.scene.instances[index] as Instance).transform);
-    const withMoves = (change: SceneChange): SceneChange => ({
-      ...change,
-      effect: 'reprojects',
-      moves: which.map((index, i) => ({ index, before: before[i] as ArrayLike<number>, after })),
-    });
-    const placed = this.#change(which, (instance) => ({ ...instance, transform: after }), true);
+  setTransforms(
+    list: readonly (readonly [nameOrIndex: string | number, transform: ArrayLike<number>])[],
+  ): SceneChange | Promise<SceneChange> {
+    const places = new Map<number, number[]>();
+    for (const [nameOrIndex, transform] of list) {
+      const place = Array.from(transform);
+      if (place.length !== 16 || !place.every(Number.isFinite))
+        throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
+      for (const index of this.#instances(nameOrIndex)) places.set(index, place);
+    }
+    const moves = [...places].map(([index, after]) => ({
+      index,
+      before: (this.scene.instances[index] as Instance).transform,
+      after,
+    }));
+    const withMoves = (change: SceneChange): SceneChange => ({ ...change, effect: 'reprojects', moves });
+    const placed = this.#change(
+      [...places.keys()],
+      (instance, index) => ({ ...instance, transform: places.get(index) as number[] }),
+      true,
+    );
     return placed instanceof Promise ? placed.then(withMoves) : withMoves(placed);
   }
 

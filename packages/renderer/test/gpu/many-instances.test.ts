@@ -239,3 +239,65 @@ it('an opaque material shows what is behind at once on a mesh whose vertex colou
   const [after, expected] = [await image(edited), await image(await PathTracer.create(device, assigned, options))];
   expect(after.every((value, i) => Math.abs(value - expected[i]!) < 1e-5)).toBe(true);
 });
+
+/** How often the GPU is asked whether it accepts something. */
+async function checksOf(run: () => Promise<unknown>): Promise<number> {
+  const original = device.pushErrorScope.bind(device);
+  let checks = 0;
+  device.pushErrorScope = (filter) => {
+    checks++;
+    original(filter);
+  };
+  try {
+    await run();
+  } finally {
+    device.pushErrorScope = original;
+  }
+  return checks;
+}
+
+it('many instances move as one edit: the same film as by an edit each, and the GPU checks as often as for one', async () => {
+  const film = async (move: (tracer: PathTracer, list: [number, number[]][]) => Promise<unknown>) => {
+    const scene = boxes(300, 10);
+    scene.environment = { type: 'constant', radiance: [1, 1, 1] };
+    const tracer = await PathTracer.create(device, scene, { width: 16, height: 16, camera });
+    const list = Array.from({ length: 200 }, (_, i): [number, number[]] => [
+      i,
+      at(0.5 * (i % 7), 0.25 * Math.floor(i / 7), -3, 0.2),
+    ]);
+    const checks = await checksOf(() => move(tracer, list));
+    for await (const _ of tracer.render({ samples: 2 }));
+    const beauty = await tracer.read('beauty');
+    tracer.destroy();
+    return { checks, beauty };
+  };
+  const together = await film((tracer, list) => tracer.setInstanceTransforms(list));
+  const one = await film((tracer, list) => tracer.setInstanceTransforms(list.slice(0, 1)));
+  const each = await film((tracer, list) =>
+    Promise.all(list.map(([index, place]) => tracer.setInstanceTransform(index, place))),
+  );
+  expect(together.checks).toBe(one.checks);
+  expect(each.checks).toBe(200 * one.checks);
+  expect(together.beauty).toEqual(each.beauty);
+  expect(together.beauty).not.toEqual(one.beauty);
+});
+
+it('of several moves none is made where one is invalid; of two of one instance the last counts', async () => {
+  const tracer = await PathTracer.create(device, boxes(3, 1), { width: 8, height: 8, camera });
+  const places = () => tracer.scene.instances.map(({ transform }) => transform);
+  const before = places();
+  await expect(
+    tracer.setInstanceTransforms([
+      [0, at(5, 0, 0)],
+      ['box 9', at(6, 0, 0)],
+    ]),
+  ).rejects.toMatchObject({ code: 'renderer/instance' });
+  await expect(tracer.setInstanceTransforms([[0, [1, 2, 3]]])).rejects.toMatchObject({ code: 'renderer/transform' });
+  expect(places()).toEqual(before);
+  await tracer.setInstanceTransforms([
+    ['box 1', at(5, 0, 0)],
+    [1, at(6, 0, 0)],
+  ]);
+  expect(places()).toEqual([before[0], at(6, 0, 0), before[2]]);
+  tracer.destroy();
+});
