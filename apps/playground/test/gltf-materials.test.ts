@@ -3,7 +3,8 @@ import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { expect, test } from 'vitest';
 import { loadGltf } from '@glanz/gltf';
 import { createCornellBox } from '@glanz/models';
-import { modelAsGltf, patchMaterials } from '../src/output/gltf-materials';
+import { patchMaterials } from '../src/output/gltf-materials';
+import { modelAsGltf } from '../src/output/model-as-gltf';
 import { initialState } from '../src/state/state';
 import { triangle } from '@glanz/browser/files';
 

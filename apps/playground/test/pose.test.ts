@@ -35,7 +35,7 @@ function recorder(scene: Scene): { readonly tracer: PathTracer; readonly asked: 
     tracer: {
       scene,
       replaceMesh: note('mesh'),
-      setInstanceTransform: note('move'),
+      setInstanceTransforms: note('move'),
       setLight: note('light'),
       setMaterial: note('material'),
     } as unknown as PathTracer,
@@ -74,7 +74,7 @@ test('a tracer is asked for what differs only, and what the user has edited stay
   const { tracer, asked } = recorder(scene);
   await applyPose(tracer, posed, { materials: { 0: { base_color: [0, 0, 1] } }, moves: {} });
   expect(asked).toEqual([
-    ['move', 0, posed.instances[0]!.transform],
+    ['move', [[0, posed.instances[0]!.transform]]],
     ['light', 0, posed.lights[0]],
     ['material', 0, { base_color: [0, 0, 1], specular_roughness: 0.25 }],
   ]);
@@ -92,5 +92,5 @@ test('a part that the user has moved is moved from where the pose has it', async
   await applyPose(tracer, posed, { materials: {}, moves: { 0: move } });
   const before = posed.instances[0]!.transform;
   const expected = Array.from(before).map((v, i) => v + (i === 12 ? 1 : i === 14 ? -3 : 0));
-  expect(asked[0]).toEqual(['move', 0, expected]);
+  expect(asked[0]).toEqual(['move', [[0, expected]]]);
 });

@@ -12,16 +12,14 @@ const noImage = () => Promise.resolve({ width: 1, height: 1, data: new Uint8Clam
 
 /** A scene with the groups that its file has. */
 async function grouped(scene: Scene, file: Blob): Promise<GroupedScene> {
-  const { animatedParts = [], ...others } = scene;
-  const shown = scene.animations ? scene : others;
   try {
     const { groupsOf, readDocument } = await import('./part-groups');
-    const nodes = animatedParts.map(([node]) => node);
+    const nodes = (scene.animatedParts ?? []).map(([node]) => node);
     const groups = groupsOf(await readDocument(file), nodes);
-    return groups.length > 0 ? { ...shown, groups } : shown;
+    return groups.length > 0 ? { ...scene, groups } : scene;
   } catch {
     // Of a document that the loader has repaired, the parts are shown without groups.
-    return shown;
+    return scene;
   }
 }
 

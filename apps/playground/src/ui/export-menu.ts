@@ -52,10 +52,11 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
     item(
       'save-gltf',
       'Save glTF',
-      'The model with the edited materials',
+      'The model with edited materials and moved parts',
       async () => {
-        const { modelAsGltf } = await import('../output/gltf-materials');
-        const { bytes, extension } = await modelAsGltf(opened(), store.state);
+        const { modelAsGltf } = await import('../output/model-as-gltf');
+        const { bytes, extension, note } = await modelAsGltf(opened(), store.state);
+        if (note) context.say(note);
         download(bytes, `${name()}-edited.${extension}`, extension === 'glb' ? 'model/gltf-binary' : 'model/gltf+json');
       },
       fail,

@@ -17,9 +17,6 @@ export interface EffectsHost {
   readonly onError: (error: unknown) => void;
 }
 
-/** So many parts at once are shown or hidden by a new tracer rather than by an edit each. */
-const MANY = 48;
-
 /** Whether the film keeps its background empty: the page then puts something behind it. */
 export const filmBackground = ({ background }: Pick<State, 'background'>): 'environment' | 'transparent' =>
   background === 'environment' ? 'environment' : 'transparent';
@@ -92,15 +89,32 @@ export function applyChange(next: State, before: State, host: EffectsHost): void
   const moved = [...new Set([...Object.keys(next.moves), ...Object.keys(before.moves)])]
     .filter((index) => next.moves[index] !== before.moves[index])
     .map(Number);
-  if (needsTracer(next, before) || flipped.length > MANY || moved.length > MANY) {
+  if (needsTracer(next, before)) {
     present(scene, host.state, host).catch(onError);
     return;
   }
-  for (const index of flipped)
-    session.edit(`visible ${index}`, (tracer) => tracer.setVisibility(index, !hidden.has(index)));
-  for (const index of moved)
-    session.edit(`move ${index}`, (tracer) =>
-      tracer.setInstanceTransform(index, placedTransform(host.scene() ?? scene, index, next.moves)),
+  // One edit each, of however many parts: those of edits that wait for the same frame add up.
+  if (flipped.length > 0)
+    session.edit(
+      'visible',
+      async (tracer, merged) => {
+        const parts = Object.entries(merged as Record<string, boolean>);
+        for (const shown of [true, false]) {
+          const those = parts.filter(([, visible]) => visible === shown).map(([index]) => Number(index));
+          if (those.length > 0) await tracer.setVisibility(those, shown);
+        }
+      },
+      Object.fromEntries(flipped.map((index) => [index, !hidden.has(index)])),
+    );
+  if (moved.length > 0)
+    session.edit(
+      'moves',
+      (tracer, merged) => {
+        const parts = Object.keys(merged).map(Number);
+        const place = (index: number) => placedTransform(host.scene() ?? scene, index, next.moves);
+        return tracer.setInstanceTransforms(parts.map((index) => [index, place(index)]));
+      },
+      Object.fromEntries(moved.map((index) => [index, true])),
     );
   if (changed('materials')) {
     for (const index of new Set([...Object.keys(next.materials), ...Object.keys(before.materials)])) {

@@ -3,9 +3,6 @@ import type { Scene } from '@glanz/scene';
 import type { State, Values } from '../state/state';
 import { placedTransform } from './placement';
 
-/** So many parts at once are moved by a new tracer rather than by an edit each. */
-const MANY = 200;
-
 const same = (a: ArrayLike<number>, b: ArrayLike<number>) =>
   a === b || (a.length === b.length && Array.prototype.every.call(a, (value, i) => value === b[i]));
 const alike = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b);
@@ -45,10 +42,6 @@ export function posedScene(scene: Scene, pose: Scene): Scene | undefined {
   };
 }
 
-/** Whether the pose is better brought by a new tracer. */
-export const movesMany = (before: Scene, after: Scene): boolean =>
-  after.instances.filter(({ transform }, i) => !same(transform, before.instances[i]?.transform ?? [])).length > MANY;
-
 /**
  * Brings a tracer from whatever pose it is in to that of a scene; values that the user has edited stay the user's, and
  * parts that the user has moved are moved from where the pose has them.
@@ -61,10 +54,10 @@ export async function applyPose(
   const shown = tracer.scene;
   for (const [i, mesh] of scene.meshes.entries())
     if (!same(mesh.positions, shown.meshes[i]?.positions ?? [])) await tracer.replaceMesh(i, mesh);
-  for (const i of scene.instances.keys()) {
-    const transform = placedTransform(scene, i, moves);
-    if (!same(transform, shown.instances[i]?.transform ?? [])) await tracer.setInstanceTransform(i, transform);
-  }
+  const moved = [...scene.instances.keys()]
+    .map((i) => [i, placedTransform(scene, i, moves)] as const)
+    .filter(([i, transform]) => !same(transform, shown.instances[i]?.transform ?? []));
+  if (moved.length > 0) await tracer.setInstanceTransforms(moved);
   for (const [i, light] of scene.lights.entries()) if (!alike(light, shown.lights[i])) await tracer.setLight(i, light);
   for (const [i, material] of scene.materials.entries()) {
     const requested: Values = { ...material.parameters, ...materials[i] };

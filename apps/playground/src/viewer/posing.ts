@@ -2,8 +2,8 @@ import type { ModelRequest } from '../input/load-messages';
 import type { Opened } from '../input/opening';
 import { Poser } from '../input/poser';
 import type { State } from '../state/state';
-import { present, type EffectsHost } from './effects';
-import { applyPose, movesMany, posedScene } from './pose';
+import type { EffectsHost } from './effects';
+import { applyPose, posedScene } from './pose';
 
 /** What poses change. */
 export interface PosingHost {
@@ -52,8 +52,7 @@ export class Posing {
         return true;
       }
       this.#host.setPosed({ ...opened, scene });
-      if (movesMany(opened.scene, scene)) await present(scene, effects.state, effects);
-      else await effects.session.edit('pose', (tracer) => applyPose(tracer, scene, effects.state()));
+      await effects.session.edit('pose', (tracer) => applyPose(tracer, scene, effects.state()));
       return true;
     } catch (error) {
       effects.onError(error);
