@@ -45,16 +45,23 @@ describe('the errors page', () => {
     }
   });
 
-  test('comments of the error classes promise only codes that exist', () => {
+  test('comments of the error classes promise only codes that exist, and say of each when it is thrown', () => {
+    let promised = 0;
     for (const name of readdirSync(packages)) {
       for (const file of readdirSync(`${packages}/${name}/src`, { recursive: true, encoding: 'utf8' }).filter((one) =>
         one.endsWith('.ts'),
       )) {
         for (const { codes } of errorClasses(name, readFileSync(`${packages}/${name}/src/${file}`, 'utf8'))) {
-          for (const { code } of codes) expect(inSources.has(code), `${file} promises ${code}`).toBe(true);
+          expect(codes.length, `codes in the comment of an error class in ${file}`).toBeGreaterThan(0);
+          promised += codes.length;
+          for (const { code, note } of codes) {
+            expect(inSources.has(code), `${file} promises ${code}`).toBe(true);
+            expect(note.split(/\s+/).length, `words about ${code} in ${file}`).toBeGreaterThan(2);
+          }
         }
       }
     }
+    expect(promised).toBeGreaterThan(115);
   });
 });
 

@@ -2,11 +2,12 @@ import { GlanzError } from '@glanz/scene';
 import { visible } from './visible';
 
 /**
- * Thrown for errors that the user can correct. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a file that
- * cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch` (an invalid batch
- * file), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be merged), `cli/gpu-isolation` (GPUs of one name that cannot be distinguished), `cli/gpu-lost` (a GPU that cannot be
- * recovered), `cli/farm` (a job of another version), `cli/missing-package` (an optional package is needed), `cli/ffmpeg` (a
- * video that ffmpeg cannot encode, or ffmpeg is missing), `cli/port` (a port that cannot be used).
+ * Thrown for errors that the user can correct. Codes: `cli/usage` (unknown option, impossible value), `cli/input` (a
+ * file that cannot be read), `cli/output` (a file that cannot be written), `cli/camera` (no such camera), `cli/batch`
+ * (an invalid batch file), `cli/checkpoint` (a file that cannot be resumed), `cli/film` (a file that cannot be
+ * merged), `cli/gpu-isolation` (GPUs of one name that cannot be distinguished), `cli/gpu-lost` (a GPU that cannot be
+ * recovered), `cli/farm` (a job of another version), `cli/missing-package` (an optional package is needed),
+ * `cli/ffmpeg` (a video that ffmpeg cannot encode, or ffmpeg is missing), `cli/port` (a port that cannot be used).
  */
 export class CliError extends GlanzError {}
 

@@ -2,8 +2,8 @@ import { GlanzError, type SceneWarning } from '@glanz/scene';
 
 /**
  * Thrown for files that cannot be read. Codes: `formats/malformed` (not valid in its format), `formats/truncated` (the
- * file ends too early), `formats/no-triangles`, `formats/missing-resource` (a file that cannot be read),
- * `formats/missing-decoder` (an optional package is needed), `formats/unsupported` (valid, but not supported),
+ * file ends too early), `formats/no-triangles` (nothing to show), `formats/missing-resource` (a file that cannot be
+ * read), `formats/missing-decoder` (an optional package is needed), `formats/unsupported` (valid, but not supported),
  * `formats/unknown` (an unknown file extension).
  */
 export class FormatError extends GlanzError {}

@@ -1,9 +1,18 @@
 import { GlanzError } from '@glanz/wgsl/error';
 
 /**
- * Thrown when bytes are not a valid image of their format, or an image cannot be written. `location.byteOffset` is set
- * where it is known. Codes: `image/format` (not that kind of file), `image/header`, `image/size`, `image/truncated`,
- * `image/corrupt`, `image/unsupported` (valid, but not something this package reads), `image/channels`.
+ * Thrown when bytes are not a valid image of their format, or an image cannot be written. `location.byteOffset` is
+ * set where it is known. Codes:
+ *
+ * - `image/format`: the bytes are not that kind of file. Pass an image of a format that the function reads.
+ * - `image/header`: the header is malformed. Export the file again.
+ * - `image/size`: the size is impossible, more than `maxPixels`, or not that of the values. Raise `maxPixels` where
+ *   it is intended.
+ * - `image/truncated`: the file ends too early. Load it again.
+ * - `image/corrupt`: the compressed data contradicts itself. Load or export the file again.
+ * - `image/unsupported`: the file is valid, but uses something that is not read. Save it as a flat image with ZIP
+ *   compression.
+ * - `image/channels`: an environment has no R, G and B, or channels to write have invalid names. Rename them.
  */
 export class ImageError extends GlanzError {}
 

@@ -1,10 +1,18 @@
 import { GlanzError } from '@glanz/wgsl';
 
 /**
- * Thrown where WebGPU or its device cannot be used. Codes: `renderer/no-webgpu` (WebGPU is not available),
- * `renderer/no-adapter` (there is no usable GPU), `renderer/no-device` (the adapter provides no device),
- * `renderer/limit` (a limit of the device is too low), `renderer/out-of-memory`, `renderer/device-lost`,
- * `renderer/gpu-error` (the GPU reports an error).
+ * Thrown where WebGPU or its device cannot be used. Codes:
+ *
+ * - `renderer/no-webgpu`: WebGPU is not available. Use a current browser and a page from `https:` or `localhost`; in
+ *   Node, pass `createGpu()`.
+ * - `renderer/no-adapter`: there is no usable GPU. Update its driver, or allow a software adapter.
+ * - `renderer/no-device`: the adapter provides no device. Wait and request one again.
+ * - `renderer/limit`: the scene or the film exceeds a limit of the device, which the message names. Request higher
+ *   limits, or make them smaller.
+ * - `renderer/out-of-memory`: the GPU has no memory left. Render fewer pixels or AOVs, or use smaller textures.
+ * - `renderer/device-lost`: the device was lost. Request another one and create the tracer again.
+ * - `renderer/gpu-error`: the GPU rejected a resource or a kernel. Report it: it is a fault of Glanz or of the
+ *   driver.
  */
 export class DeviceError extends GlanzError {}
 
@@ -16,10 +24,32 @@ export const deviceLost = ({ reason, message }: GPUDeviceLostInfo): DeviceError 
   );
 
 /**
- * Thrown for scenes, options and calls that the renderer does not accept. Codes: `renderer/size`, `renderer/samples`,
- * `renderer/camera`, `renderer/filter`, `renderer/light-groups`, `renderer/option`, `renderer/film-state`,
- * `renderer/material`, `renderer/instance`, `renderer/mesh`, `renderer/light`, `renderer/environment`,
- * `renderer/transform`, `renderer/variant`, `renderer/aov`, `renderer/shutter`, `renderer/destroyed`, `renderer/busy`,
- * `renderer/no-triangles`.
+ * Thrown for scenes, options and calls that the renderer does not accept. Codes:
+ *
+ * - `renderer/size`: a width, height or render scale is out of range. Wait until the canvas is laid out, or pass
+ *   whole numbers.
+ * - `renderer/samples`: `samples`, `noise`, `maxSubmitMs` or `firstSample` is out of range. Pass a number in the
+ *   range of the message.
+ * - `renderer/camera`: there is no such camera, or it cannot form an image. Pass a camera whose transform has three
+ *   axes and whose view has a size.
+ * - `renderer/filter`: the pixel filter does not exist, or its radius is out of range. Choose one of the message.
+ * - `renderer/light-groups`: there is no such light group, a factor is invalid, or the tracer keeps none. Create it
+ *   with light groups.
+ * - `renderer/option`: an option is out of its range. Pass a value in the range of the message.
+ * - `renderer/film-state`: a saved film is damaged, or of another scene, size or version. Render again from the
+ *   start.
+ * - `renderer/material`: there is no material of this name or index. Use one that the message lists.
+ * - `renderer/instance`: there is no instance of this name or index. Use one that the message lists.
+ * - `renderer/mesh`: there is no mesh of this name or index. Use one that the message lists.
+ * - `renderer/light`: there is no light of this name or index. Use one that the message lists.
+ * - `renderer/environment`: the environment does not have what is to be changed. Set another one by
+ *   `setEnvironment()`.
+ * - `renderer/transform`: a transform is not 16 finite numbers. Pass a column-major matrix.
+ * - `renderer/variant`: there is no material variant of this name or index. Use one that the message lists.
+ * - `renderer/aov`: the film does not keep the AOV. Name it in `aovs`, or await `setAovs()`.
+ * - `renderer/shutter`: the film restarted during `renderShutter()`. Edit the scene in `pose` only.
+ * - `renderer/destroyed`: the tracer was used after `destroy()`. Create another one.
+ * - `renderer/busy`: `render()` was called while another one runs. Finish that loop, or abort it.
+ * - `renderer/no-triangles`: nothing in the scene is visible. Show an instance whose transform keeps it an extent.
  */
 export class RenderError extends GlanzError {}

@@ -2,7 +2,12 @@ import { GlanzError } from './error';
 import type { GatedDependency, WgslModule } from './module';
 
 /**
- * Thrown by {@link compose}. Codes: `wgsl/cycle`, `wgsl/unknown-flag`, `wgsl/unbalanced-gate`, `wgsl/duplicate-name`.
+ * Thrown by {@link compose}. Codes:
+ *
+ * - `wgsl/cycle`: modules depend on each other in a circle. Remove one of the imports that the message lists.
+ * - `wgsl/unknown-flag`: a module asks for a flag that was not passed. Pass every flag, `false` included.
+ * - `wgsl/unbalanced-gate`: an `//#if` has no `//#endif`, or the reverse. Add it at the line of `location`.
+ * - `wgsl/duplicate-name`: two modules have the same name. Prefix names with your package's.
  */
 export class WgslComposeError extends GlanzError {}
 

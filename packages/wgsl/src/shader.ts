@@ -3,7 +3,7 @@ import { GlanzError } from './error';
 
 /**
  * Thrown for a shader that the WebGPU implementation rejected. `location` names the WGSL module and the line inside it.
- * Code: `wgsl/compile`.
+ * Code: `wgsl/compile` (the message quotes the line; correct it).
  */
 export class ShaderError extends GlanzError {}
 

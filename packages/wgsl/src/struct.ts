@@ -2,8 +2,13 @@ import { GlanzError } from './error';
 import { wgslModule, type WgslModule } from './module';
 
 /**
- * Thrown by {@link struct} and by writers. Codes: `wgsl/unknown-field`, `wgsl/field-length`, `wgsl/field-type`,
- * `wgsl/empty-struct`, `wgsl/out-of-range`.
+ * Thrown by {@link struct} and by writers. Codes:
+ *
+ * - `wgsl/unknown-field`: the struct has no field of this name. Use one that the message lists.
+ * - `wgsl/field-length`: a field got too few or too many numbers. Pass as many as the message says.
+ * - `wgsl/field-type`: the type of a field is not known. Use one that the message lists.
+ * - `wgsl/empty-struct`: the struct has no fields. Give it one.
+ * - `wgsl/out-of-range`: an index is outside of the buffer. Pass a larger buffer, or a smaller index.
  */
 export class StructError extends GlanzError {}
 

@@ -1,9 +1,10 @@
 import { GlanzError } from '@glanz/wgsl/error';
 
 /**
- * Thrown where a MaterialX document cannot be read. Codes: `openpbr/materialx-syntax`, `openpbr/materialx-limit`,
- * `openpbr/materialx-reference` (a name that does not exist, or a circular reference), `openpbr/materialx-value`,
- * `openpbr/materialx-no-surface`. `location.line` says where.
+ * Thrown where a MaterialX document cannot be read. Codes: `openpbr/materialx-syntax` (not well-formed XML),
+ * `openpbr/materialx-limit` (a document that is larger or deeper than the reader allows),
+ * `openpbr/materialx-reference` (a name that does not exist, or a circular reference), `openpbr/materialx-value` (a
+ * value of another type), `openpbr/materialx-no-surface` (there is no `open_pbr_surface`). `location.line` says where.
  */
 export class MaterialXError extends GlanzError {}
 

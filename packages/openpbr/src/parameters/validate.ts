@@ -2,7 +2,10 @@ import { GlanzError } from '@glanz/wgsl/error';
 import { OPENPBR_PARAMETER_NAMES, OPENPBR_PARAMETER_SPECS } from './specs';
 import type { OpenPbrParameterName, OpenPbrParameters } from './types';
 
-/** Thrown where parameters cannot be repaired. Codes: `openpbr/parameter-type`. */
+/**
+ * Thrown where parameters cannot be repaired. Code: `openpbr/parameter-type` (the message says which type the
+ * parameter takes).
+ */
 export class OpenPbrError extends GlanzError {}
 
 /** Something {@link validateParameters} repaired or ignored. */
