@@ -23,9 +23,9 @@ export async function render(
     samplesPerSecond,
     remainingMs,
   } of tracer.render({ samples: 512 })) {
-    report(
-      `${samples}/${targetSamples}, ${samplesPerSecond.toFixed(1)} a second, ${Math.ceil(remainingMs / 1000)} s left`,
-    );
+    const speed = samplesPerSecond.toFixed(1);
+    const seconds = Math.ceil(remainingMs / 1000);
+    report(`${samples}/${targetSamples}, ${speed} a second, ${seconds} s left`);
   }
 }
 // #endregion progress
@@ -39,10 +39,11 @@ export async function untilGood(
     noise: 0.01,
     samples: 4096,
   })) {
-    if (noise !== undefined)
-      report(
-        `noise ${(100 * noise).toFixed(1)} %, ${Math.round(100 * active)} % of the image to go, ${Math.ceil(remainingMs / 1000)} s`,
-      );
+    if (noise === undefined) continue;
+    const percent = (100 * noise).toFixed(1);
+    const left = Math.round(100 * active);
+    const seconds = Math.ceil(remainingMs / 1000);
+    report(`noise ${percent} %, ${left} % of the image left, ${seconds} s`);
   }
 }
 // #endregion noise

@@ -23,7 +23,8 @@ export function showEvents(
 ): void {
   viewer.on('progress', ({ total }) => void (bar.value = total));
   viewer.on('sample', ({ samples, target, remainingMs }) => {
-    line.textContent = `${samples} of ${target} samples, ${Math.round(remainingMs / 1000)} s to go`;
+    const seconds = Math.round(remainingMs / 1000);
+    line.textContent = `${samples} of ${target} samples, ${seconds} s left`;
   });
   viewer.on(
     'converged',

@@ -27,7 +27,7 @@ import { Messages } from './ui/messages';
 import { StatusLine } from './ui/status-line';
 import { wireTabs } from './ui/tabs';
 import { wireTheme } from './ui/theme';
-import { Behind } from './viewer/behind';
+import { Backdrop } from './viewer/backdrop';
 import { CameraRig } from './viewer/camera-rig';
 import { applyChange, present, type EffectsHost } from './viewer/effects';
 import { filmSize } from './viewer/film-size';
@@ -48,7 +48,7 @@ export class App {
   readonly #selection = new Selection();
   readonly #store: Store<State>;
   readonly #rig: CameraRig;
-  readonly #behind: Behind;
+  readonly #backdrop: Backdrop;
   readonly #modelListeners: (() => void)[] = [];
   readonly #environmentListeners: (() => void)[] = [];
   readonly #viewListeners: (() => void)[] = [];
@@ -67,7 +67,7 @@ export class App {
     const { state } = stateFromQuery(location.search);
     this.#store = new Store(state, ['orbit', 'layer']);
     this.#rig = new CameraRig(this.#store, () => this.#aspect());
-    this.#behind = new Behind(this.#stage, byId<HTMLCanvasElement>('backdrop'));
+    this.#backdrop = new Backdrop(this.#stage, byId<HTMLCanvasElement>('backdrop'));
     this.#model.append(
       ...Object.entries(SAMPLES).map(([name, { title }]) => element('option', { value: name }, title)),
     );
@@ -189,7 +189,7 @@ export class App {
         this.#selection.choose(
           chosenInVariant(this.#opened.scene, this.#selection.chosen, before.variant, next.variant),
         );
-      this.#drawBehind();
+      this.#drawBackdrop();
     });
     this.#model.addEventListener('change', () => {
       const { value } = this.#model;
@@ -319,7 +319,7 @@ export class App {
       listener();
     }
     this.#canvas.dataset['scene'] = title;
-    this.#drawBehind();
+    this.#drawBackdrop();
     this.#context ??= this.#makePanels();
     this.#context.catch((error: unknown) => this.#fail(error));
   }
@@ -349,11 +349,11 @@ export class App {
     const outline = (this.#outline = new Outline(byId<HTMLCanvasElement>('outline'), this.#session));
     this.#selection.subscribe((chosen) => outline.show(chosenParts(chosen)));
     outline.show(chosenParts(this.#selection.chosen));
-    const behindFor = (aspect: number, camera = this.#cameraFor(aspect)) => {
+    const backdropFor = (aspect: number, camera = this.#cameraFor(aspect)) => {
       const { state } = this.#store;
-      return this.#behind.rendered(state, this.#environments.choose(state, this.#opened?.scene), camera, aspect);
+      return this.#backdrop.rendered(state, this.#environments.choose(state, this.#opened?.scene), camera, aspect);
     };
-    makePanels(context, () => this.#behind.saved(this.#store.state), behindFor);
+    makePanels(context, () => this.#backdrop.saved(this.#store.state), backdropFor);
     document.body.dataset['panels'] = 'ready';
     return context;
   }
@@ -427,19 +427,19 @@ export class App {
     this.#session.resize(filmSize(width, height, scale, ratio), filmSize(width, height, 'device', ratio));
     // A first view fits the window; one that was turned stays.
     if (this.#opened && !orbit) this.#rig.follow(true);
-    this.#drawBehind();
+    this.#drawBackdrop();
   }
 
   #step(seconds: number): boolean {
     const moved = this.#rig.step(seconds);
-    if (moved) this.#drawBehind();
+    if (moved) this.#drawBackdrop();
     return moved;
   }
 
-  #drawBehind(): void {
+  #drawBackdrop(): void {
     const scene = this.#opened?.scene;
     if (scene)
-      this.#behind.draw(
+      this.#backdrop.draw(
         this.#store.state,
         () => this.#environments.choose(this.#store.state, scene),
         () => this.#rig.now,

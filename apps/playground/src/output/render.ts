@@ -3,7 +3,7 @@ import type { Camera } from '@glanz/scene';
 import { renderImage } from '@glanz/viewer/render-image';
 import type { Context } from '../ui/context';
 import { showRenderDialog, type RenderFormat, type RenderRequest } from '../ui/render-dialog';
-import { fileName, imageAsExr, imageAsPng, type Behind } from './save';
+import { fileName, imageAsExr, imageAsPng, type SavedBackdrop } from './save';
 
 const FORMATS: readonly RenderFormat[] = [
   { id: 'png', title: 'PNG, 8 bits', extension: 'png', type: 'image/png', alpha: true },
@@ -25,24 +25,27 @@ function screenSize({ stageSize }: Context): readonly [number, number] {
 }
 
 /** What is behind an image of this shape. @param camera Default: the camera as it is now. */
-export type BehindFor = (aspect: number, camera?: Camera) => Behind | undefined | Promise<Behind | undefined>;
+export type BackdropFor = (
+  aspect: number,
+  camera?: Camera,
+) => SavedBackdrop | undefined | Promise<SavedBackdrop | undefined>;
 
 async function write(
   tracer: PathTracer,
   { format, signal }: RenderRequest,
   { session: { engine }, store }: Context,
-  behind: Behind | undefined,
+  backdrop: SavedBackdrop | undefined,
 ): Promise<Blob> {
   const { exposure, toneMap } = store.state;
   if (format === 'exr') return new Blob([await imageAsExr(tracer)], { type: 'image/x-exr' });
   const bits = format === 'png-16' ? 16 : 8;
-  return new Blob([await imageAsPng(engine, tracer, { exposure, toneMap }, bits, behind, signal)], {
+  return new Blob([await imageAsPng(engine, tracer, { exposure, toneMap }, bits, backdrop, signal)], {
     type: 'image/png',
   });
 }
 
 /** Opens the dialog that renders the image at any size. The screen's image waits meanwhile, and keeps its samples. */
-export function openRenderDialog(context: Context, behindFor: BehindFor, format?: string): void {
+export function openRenderDialog(context: Context, backdropFor: BackdropFor, format?: string): void {
   const { session, store, opened } = context;
   const { samples, noise, background } = store.state;
   showRenderDialog({
@@ -57,7 +60,7 @@ export function openRenderDialog(context: Context, behindFor: BehindFor, format?
       const { width, height, transparent } = request;
       const now = store.state.background;
       const composed = !transparent && (now === 'color' || now === 'blurred');
-      const behind = composed ? await behindFor(width / height) : undefined;
+      const backdrop = composed ? await backdropFor(width / height) : undefined;
       const { paused } = session;
       session.setPaused(true);
       try {
@@ -66,7 +69,7 @@ export function openRenderDialog(context: Context, behindFor: BehindFor, format?
           background: transparent || composed ? 'transparent' : 'environment',
         });
         try {
-          return await write(tracer, request, context, behind);
+          return await write(tracer, request, context, backdrop);
         } finally {
           tracer.destroy();
         }

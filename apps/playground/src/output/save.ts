@@ -3,10 +3,15 @@ import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap';
 import type { Engine } from '@glanz/viewer/engine';
 
 /** What lies behind the model in a saved image: sRGB codes of one colour, or of an image of any size. */
-export type Behind = { readonly color: readonly [number, number, number] } | { readonly image: ImageData };
+export type SavedBackdrop = { readonly color: readonly [number, number, number] } | { readonly image: ImageData };
 
 /** Puts straight-alpha codes over an opaque background, as the browser's window does. */
-export function over(codes: Uint8ClampedArray | Uint16Array, width: number, height: number, behind: Behind): void {
+export function over(
+  codes: Uint8ClampedArray | Uint16Array,
+  width: number,
+  height: number,
+  backdrop: SavedBackdrop,
+): void {
   const top = codes instanceof Uint16Array ? 65535 : 255;
   for (let y = 0, i = 0; y < height; y++) {
     for (let x = 0; x < width; x++, i += 4) {
@@ -14,9 +19,9 @@ export function over(codes: Uint8ClampedArray | Uint16Array, width: number, heig
       if (alpha >= 1) continue;
       for (let k = 0; k < 3; k++) {
         const code =
-          'color' in behind
-            ? (behind.color[k] as number)
-            : sample(behind.image, (x + 0.5) / width, (y + 0.5) / height, k);
+          'color' in backdrop
+            ? (backdrop.color[k] as number)
+            : sample(backdrop.image, (x + 0.5) / width, (y + 0.5) / height, k);
         codes[i + k] = Math.round((codes[i + k] as number) * alpha + (code / 255) * top * (1 - alpha));
       }
       codes[i + 3] = top;
@@ -43,7 +48,7 @@ export async function imageAsPng(
   tracer: PathTracer,
   view: Required<ToneMapOptions>,
   bits: 8 | 16,
-  behind?: Behind,
+  backdrop?: SavedBackdrop,
   signal = new AbortController().signal,
 ): Promise<Uint8Array<ArrayBuffer>> {
   const { encodePng } = await import('@glanz/image/png');
@@ -54,7 +59,7 @@ export async function imageAsPng(
     bits === 8
       ? toneMapPixels(beauty, width, height, { ...view, output: 'uint8' })
       : toneMapPixels(beauty, width, height, { ...view, output: 'uint16' });
-  if (behind) over(codes, width, height, behind);
+  if (backdrop) over(codes, width, height, backdrop);
   return encodePng({
     width,
     height,
@@ -120,7 +125,7 @@ export function download(bytes: Uint8Array<ArrayBuffer> | string | Blob, name: s
 /** A file name out of a title. */
 export const fileName = (title: string): string =>
   title
-    .replace(/\.(glb|gltf|obj|stl)$/i, '')
+    .replace(/\.(glb|gltf|obj|stl|usd[acz]?)$/i, '')
     .replace(/[^\p{L}\p{N}]+/gu, '-')
     .replace(/^-|-$/g, '')
     .toLowerCase() || 'image';

@@ -15,7 +15,7 @@ import { showVideoDialog, type VideoRequest } from '../ui/video-dialog';
 import { filmBackground } from '../viewer/effects';
 import { orbitOf } from '../viewer/camera-rig';
 import { applyPose, posedScene } from '../viewer/pose';
-import type { BehindFor } from './render';
+import type { BackdropFor } from './render';
 import { fileName, over } from './save';
 
 /** Poses the video's tracers by animations, which are called by their indices here. */
@@ -66,7 +66,7 @@ function pathOf({ motion, seconds, degrees, clip }: VideoRequest, { store }: Con
 }
 
 /** Opens the dialog that records a video. The screen's image waits meanwhile, and keeps its samples. */
-export function openVideoDialog(context: Context, behindFor: BehindFor): void {
+export function openVideoDialog(context: Context, backdropFor: BackdropFor): void {
   const { session, store, opened } = context;
   const { scene, request } = opened();
   showVideoDialog({
@@ -101,8 +101,8 @@ export function openVideoDialog(context: Context, behindFor: BehindFor): void {
           ...(composed
             ? {
                 compose: async ({ data, camera }) => {
-                  const behind = await behindFor(width / height, camera);
-                  if (behind) over(data, width, height, behind);
+                  const backdrop = await backdropFor(width / height, camera);
+                  if (backdrop) over(data, width, height, backdrop);
                 },
               }
             : {}),

@@ -1,24 +1,28 @@
-import type { BehindFor } from '../output/render';
-import { download, fileName, imageAsExr, imageAsPng, type Behind } from '../output/save';
+import type { BackdropFor } from '../output/render';
+import { download, fileName, imageAsExr, imageAsPng, type SavedBackdrop } from '../output/save';
 import type { Context } from './context';
 import { byId, element } from './elements';
 import { item } from './menu-item';
 
 /** Saves images, videos, models and materials. */
-export function exportMenu(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): HTMLElement[] {
+export function exportMenu(
+  context: Context,
+  backdrop: () => SavedBackdrop | undefined,
+  backdropFor: BackdropFor,
+): HTMLElement[] {
   const { session, store, opened, selection, fail } = context;
   const name = () => fileName(opened().title);
   const render = async (format?: string) => {
     const { openRenderDialog } = await import('../output/render');
     byId('export-menu').hidePopover();
-    openRenderDialog(context, behindFor, format);
+    openRenderDialog(context, backdropFor, format);
   };
   const png = (bits: 8 | 16) => async () => {
     const { tracer, current } = session;
     const { exposure, toneMap } = store.state;
     // While something moves, the film is that of the preview, which may be much smaller than the screen.
     if (!tracer || !current) return render(bits === 8 ? 'png' : 'png-16');
-    const bytes = await imageAsPng(session.engine, tracer, { exposure, toneMap }, bits, behind());
+    const bytes = await imageAsPng(session.engine, tracer, { exposure, toneMap }, bits, backdrop());
     download(bytes, `${name()}.png`, 'image/png');
   };
   return [
@@ -44,7 +48,7 @@ export function exportMenu(context: Context, behind: () => Behind | undefined, b
       async () => {
         const { openVideoDialog } = await import('../output/video');
         byId('export-menu').hidePopover();
-        openVideoDialog(context, behindFor);
+        openVideoDialog(context, backdropFor);
       },
       fail,
     ),

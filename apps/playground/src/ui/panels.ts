@@ -1,5 +1,5 @@
-import type { BehindFor } from '../output/render';
-import type { Behind } from '../output/save';
+import type { BackdropFor } from '../output/render';
+import type { SavedBackdrop } from '../output/save';
 import { cameraPanel } from './camera-panel';
 import type { Context } from './context';
 import { byId, element } from './elements';
@@ -47,7 +47,11 @@ function lateMenu(id: string, load: () => Promise<HTMLElement[]>, fail: (error: 
 }
 
 /** Makes all panels: not needed for the first image, so not in the first script. */
-export function makePanels(context: Context, behind: () => Behind | undefined, behindFor: BehindFor): void {
+export function makePanels(
+  context: Context,
+  backdrop: () => SavedBackdrop | undefined,
+  backdropFor: BackdropFor,
+): void {
   byId('scene-panel').append(...new SceneTree(context).elements);
   // Tools come with the first part that is chosen.
   let tools: Promise<void> | undefined;
@@ -62,7 +66,7 @@ export function makePanels(context: Context, behind: () => Behind | undefined, b
   byId('panel-light').append(...lightPanel(context));
   byId('panel-camera').append(...cameraPanel(context));
   byId('panel-render').append(...renderPanel(context));
-  byId('export-menu').append(...exportMenu(context, behind, behindFor));
+  byId('export-menu').append(...exportMenu(context, backdrop, backdropFor));
   lateMenu('share-menu', async () => (await import('./share-menu')).shareMenu(context), context.fail);
   lateMenu('gallery-menu', async () => (await import('./sample-gallery')).sampleGallery(context), context.fail);
   lateMenu('looks-menu', async () => (await import('./looks/looks-menu')).looksMenu(context), context.fail);

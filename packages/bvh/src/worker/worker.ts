@@ -9,7 +9,7 @@ import { ownPort, type WorkerPort } from './port';
 import { buffersOf, sendableError, type BuildReply, type BuildRequest, type SentOptions } from './protocol';
 import { RETAIN_MS } from './retained';
 import { Team } from './team';
-import { buildTogether } from './together';
+import { buildInParallel } from './parallel-build';
 
 export type { WorkerPort } from './port';
 
@@ -85,7 +85,7 @@ export function serveBuilds(port: WorkerPort): void {
     try {
       // eslint-disable-next-line require-yield
       const build = function* (given: TriangleMesh, count: number, settings: BuildSettings) {
-        return buildTogether(given, count, settings, team) ?? nothing();
+        return buildInParallel(given, count, settings, team) ?? nothing();
       };
       // The name is only for messages between threads.
       const blas = buildBlas(mesh, { ...receivedOptions(options), builder: { name: 'fast', build } });

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { blurEnvironment } from '../src/viewer/backdrop';
+import { blurEnvironment } from '../src/viewer/blurred-environment';
 
 /** Solid angle of a texel's row, all of it. */
 const rowArea = (row: number, rows: number) =>

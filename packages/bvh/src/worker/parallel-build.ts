@@ -5,9 +5,9 @@ import { encloseNodes, Levels } from '../builders/levels';
 import { joinUpperLevels, STEP, type Steps, type TriangleTree } from '../builders/steps';
 import { BLAS_MAX_DEPTH, type TriangleMesh } from '../layout';
 import type { Team } from './team';
-import { placeClusterTrees, shareClusterTrees, writerOver } from './together-clusters';
-import { sharePrimitives, shareSorting } from './together-sorted';
-import { shareLevels, shareRotations } from './together-upper';
+import { placeClusterTrees, shareClusterTrees, writerOver } from './parallel-clusters';
+import { sharePrimitives, shareSorting } from './parallel-sort';
+import { shareLevels, shareRotations } from './parallel-levels';
 
 function finish<T>(steps: Steps<T>): T {
   let step = steps.next();
@@ -23,7 +23,7 @@ function finish<T>(steps: Steps<T>): T {
  * @returns The tree, in the first worker; undefined in the second.
  * @throws {BvhError} as `buildBlas`; `bvh/worker` if the other worker has given up.
  */
-export function buildTogether(
+export function buildInParallel(
   mesh: TriangleMesh,
   count: number,
   settings: BuildSettings,
