@@ -32,7 +32,7 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
     const names = paths.slice(0, 3).map((path) => `"${path}"`);
     throw new PlaygroundError(
       'playground/no-model',
-      `There is no .glb, .gltf, .obj, .stl, .usdz, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`,
+      `There is no .glb, .gltf, .obj, .stl, .usdz, .usdc, .usda, .hdr, .exr or .mtlx among the files${names.length > 0 ? ` (${names.join(', ')}${paths.length > 3 ? ', …' : ''})` : ''}.`,
     );
   }
   const environment = environmentPath === undefined ? undefined : files.get(environmentPath);
