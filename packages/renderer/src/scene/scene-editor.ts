@@ -156,18 +156,12 @@ export class SceneEditor {
         throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
       for (const index of this.#instances(nameOrIndex)) places.set(index, place);
     }
-    const moves = [...places].map(([index, after]) => ({
-      index,
-      before: (this.scene.instances[index] as Instance).transform,
-      after,
-    }));
-    const withMoves = (change: SceneChange): SceneChange => ({ ...change, effect: 'reprojects', moves });
-    const placed = this.#change(
+    return this.#change(
       [...places.keys()],
       (instance, index) => ({ ...instance, transform: places.get(index) as number[] }),
       true,
+      true,
     );
-    return placed instanceof Promise ? placed.then(withMoves) : withMoves(placed);
   }
 
   setMaterialOf(nameOrIndex: string | number, material: string | number): SceneChange | Promise<SceneChange> {
@@ -335,11 +329,13 @@ export class SceneEditor {
   /**
    * Changes some instances, at a cost that depends on how many.
    * @param moves Whether the change is one of transforms or visibility.
+   * @param keepsHistory Whether it is one of transforms alone: the surfaces are elsewhere in the image.
    */
   #change(
     which: readonly number[],
     changed: (instance: Instance, index: number) => Instance,
     moves: boolean,
+    keepsHistory = false,
   ): SceneChange | Promise<SceneChange> {
     const version = this.#version;
     const geometry = this.#geometry;
@@ -376,6 +372,14 @@ export class SceneEditor {
         return this.#gpu.updateInstances(geometry, changes);
       },
       undo: () => set('before'),
+      ...(keepsHistory && {
+        effect: 'reprojects',
+        moves: changes.map(({ index, before, after }) => ({
+          index,
+          before: before.transform,
+          after: after.transform,
+        })),
+      }),
     };
   }
 
