@@ -127,7 +127,7 @@ export function furnaceBelowOne(p: OpenPbrParameters, wo: OpenPbrVector, size = 
 const mirrors = interfaceAlbedo(160, 160);
 
 /**
- * Directional albedo of white metal, good to 1e-4 however narrow and anisotropic its highlight: what single scattering
+ * Directional albedo of white metal, good to 1e-4 however narrow and stretched its highlight: what single scattering
  * reflects by a quadrature of its own, which knows nothing of the tables, and the lobe of multiple scattering, which is
  * smooth, by nodes that follow the dip of masking.
  */
@@ -159,7 +159,7 @@ export function whiteMetal(roughness: number, anisotropy: number, wo: OpenPbrVec
 const interfaces = interfaceAlbedo(300, 300);
 
 /**
- * Directional albedo of a white dielectric over Lambert, or of clear glass, good to 2e-4 however narrow and anisotropic
+ * Directional albedo of a white dielectric over Lambert, or of clear glass, good to 2e-4 however narrow and stretched
  * its highlight and from either side: what single scattering by its facets returns by a quadrature of its own, which
  * knows nothing of the tables and sums; and all the rest, which is smooth, as {@link whiteMetal}.
  */

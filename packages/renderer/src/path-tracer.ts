@@ -337,7 +337,7 @@ export class PathTracer extends TracerEdits {
   async setLightGroup(name: string, settings: Partial<Pick<LightGroup, 'intensity' | 'color'>>): Promise<void> {
     this.#check();
     if (this.#options.lightGroups === 'off')
-      throw new RenderError('renderer/light-groups', "This tracer keeps no light groups: lightGroups is 'off'.");
+      throw new RenderError('renderer/light-groups', "The option lightGroups is 'off'.");
     await this.#session.setGroup(name, settings);
   }
 

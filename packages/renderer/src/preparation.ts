@@ -121,7 +121,7 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
       const camera = await inSlices(steps, { signal }).catch((cause: unknown) => {
         // What cannot be framed cannot be rendered, and rendering is what the caller asked for.
         throw cause instanceof SceneError && cause.code === 'scene/empty'
-          ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.', {
+          ? new RenderError('renderer/no-triangles', 'The scene has no visible triangles.', {
               cause,
             })
           : cause;

@@ -2,7 +2,7 @@ import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../paramete
 import { coatedBase, coatEmission, coatPass, coatThrough, inCoat, outOfCoat, prepareCoat, type Coat } from './coat';
 import { interfaceEnergy, isOverOpaque, isSummed, interfaceAlbedo, summedAlbedoMean } from './dielectric';
 import { cosineSample, diffuseEven, diffuseGain, diffuseGrazing, eon } from './diffuse';
-import { energyAlbedoMean, conductorLoss, conductorLossMean, anisotropicAlbedoMean } from './energy';
+import { energyAlbedoMean, conductorLoss, conductorLossMean, stretchedAlbedoMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmFacet, filmReflectance, filmChange, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
@@ -224,7 +224,7 @@ export function prepareBsdf(
   const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
-  const reflected = anisotropicAlbedoMean(
+  const reflected = stretchedAlbedoMean(
     face.epsilon,
     alpha,
     roughness,

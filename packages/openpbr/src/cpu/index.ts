@@ -11,7 +11,7 @@ export {
   type BsdfSample,
 } from './bsdf';
 export { coatDarkening, coatedBase, coatRoughening, coatTransmittance, type Coat, type CoatFrame } from './coat';
-export { anisotropicEnergy } from './anisotropic';
+export { stretchedEnergy } from './stretched';
 export { refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 export { subsurfaceAlbedo, subsurfaceMedium, type ThinSubsurface } from './subsurface';
 export { filmReflectance, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
@@ -42,7 +42,7 @@ export {
   conductorLossMean,
   energyAlbedo,
   energyAlbedoMean,
-  anisotropicAlbedoMean,
+  stretchedAlbedoMean,
   energyTotalLost,
   fresnelMean,
   tableLookup,

@@ -125,7 +125,7 @@ export function requiredFeatures(
         all.some((p) => p.coat_weight > 0 && p.coat_ior < outer) ||
         clear.some((p) => isNear(p, outer)),
     );
-  const anisotropic =
+  const stretched =
     specular &&
     all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0));
   return {
@@ -138,7 +138,7 @@ export function requiredFeatures(
     OPENPBR_INTERFACE: dielectric || coat,
     OPENPBR_INNER: inner,
     OPENPBR_INNER_SUMS: inner && sums,
-    OPENPBR_INTERFACE_LOOP: dielectric && (transmission || coat) && (anisotropic || (inner && sums)),
+    OPENPBR_INTERFACE_LOOP: dielectric && (transmission || coat) && (stretched || (inner && sums)),
     OPENPBR_TRANSMISSION: transmission,
     OPENPBR_SUBSURFACE: below.length > 0,
     OPENPBR_THIN_SUBSURFACE: thinBelow,
@@ -151,7 +151,7 @@ export function requiredFeatures(
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: diffuse && solid.some((p) => p.base_diffuse_roughness > 0),
-    OPENPBR_ANISOTROPY: anisotropic,
+    OPENPBR_ANISOTROPY: stretched,
     OPENPBR_MULTISCATTER: multipleScattering,
     OPENPBR_EMISSION: all.some((p) => p.emission_luminance > 0),
   };

@@ -84,6 +84,6 @@ function uncaptured(error: GPUError): DeviceError {
   const memory = error.constructor.name === 'GPUOutOfMemoryError';
   return new DeviceError(
     memory ? 'renderer/out-of-memory' : 'renderer/gpu-error',
-    `The GPU reported an error outside of any error scope: ${error.message}`,
+    `The GPU reported an error: ${error.message}`,
   );
 }

@@ -145,11 +145,8 @@ export class Placement {
   #check(scene: Scene): void {
     if (this.tlas.count > 0) return;
     if (scene.instances.some((instance) => isShown(scene, instance)))
-      throw new RenderError(
-        'renderer/no-triangles',
-        'Every instance has a transform that flattens it: nothing to render.',
-      );
-    throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles: nothing to render.');
+      throw new RenderError('renderer/no-triangles', 'Every instance has a transform that flattens it.');
+    throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles.');
   }
 }
 

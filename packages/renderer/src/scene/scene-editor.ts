@@ -153,14 +153,14 @@ export class SceneEditor {
     for (const [nameOrIndex, transform] of list) {
       const place = Array.from(transform);
       if (place.length !== 16 || !place.every(Number.isFinite))
-        throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers, column-major.');
+        throw new RenderError('renderer/transform', 'A transform must be 16 finite numbers.');
       for (const index of this.#instances(nameOrIndex)) places.set(index, place);
     }
     return this.#change(
       [...places.keys()],
       (instance, index) => ({ ...instance, transform: places.get(index) as number[] }),
       true,
-      true,
+      'reprojects',
     );
   }
 
@@ -329,13 +329,13 @@ export class SceneEditor {
   /**
    * Changes some instances, at a cost that depends on how many.
    * @param moves Whether the change is one of transforms or visibility.
-   * @param keepsHistory Whether it is one of transforms alone: the surfaces are elsewhere in the image.
+   * @param effect Of a change of transforms alone: the surfaces are elsewhere in the image.
    */
   #change(
     which: readonly number[],
     changed: (instance: Instance, index: number) => Instance,
     moves: boolean,
-    keepsHistory = false,
+    effect?: 'reprojects',
   ): SceneChange | Promise<SceneChange> {
     const version = this.#version;
     const geometry = this.#geometry;
@@ -372,8 +372,8 @@ export class SceneEditor {
         return this.#gpu.updateInstances(geometry, changes);
       },
       undo: () => set('before'),
-      ...(keepsHistory && {
-        effect: 'reprojects',
+      ...(effect && {
+        effect,
         moves: changes.map(({ index, before, after }) => ({
           index,
           before: before.transform,
