@@ -6,7 +6,7 @@ import type { Message } from '../ui/messages';
 import type { Session } from '../viewer/session';
 import type { Environments } from './environments';
 import type { ModelRequest } from './load-messages';
-import { environmentNote, sortFiles } from './sort-files';
+import { environmentNote, othersNote, sortFiles } from './sort-files';
 
 /** What files that are opened change. */
 export interface FilesHost {
@@ -30,7 +30,7 @@ export interface FilesHost {
  */
 export async function openFiles(host: FilesHost, files: ReadonlyMap<string, File>): Promise<void> {
   const { store, session, environments, clearErrors, show } = host;
-  const { model, environment, material } = sortFiles(files);
+  const { model, others, environment, material } = sortFiles(files);
   let note: string | undefined;
   if (environment) {
     try {
@@ -50,6 +50,7 @@ export async function openFiles(host: FilesHost, files: ReadonlyMap<string, File
     host.onEnvironmentFile();
   }
   if (model) await host.load({ kind: 'files', files: model.files, entry: model.entry });
+  if (model && others) show({ kind: 'note', text: othersNote(model.entry, others) });
   if (note) show({ kind: 'note', text: note, code: 'playground/environment', stays: true });
   if (material && !model && host.scene()) await openMaterial(host, material, files);
 }

@@ -6,11 +6,15 @@ import { describeError, PlaygroundError } from '../errors';
  */
 export interface GivenFiles {
   readonly model?: { readonly files: ReadonlyMap<string, File>; readonly entry: string };
+  /** Paths of other models beside it, which are not shown. */
+  readonly others?: readonly string[];
   readonly environment?: File;
   /** A MaterialX document. */
   readonly material?: File;
 }
 
+/** Files of USD refer to each other. */
+const USD = /\.usd[acz]?$/i;
 const MODEL = /\.(glb|gltf|obj|stl|usd[acz]?)$/i;
 const ENVIRONMENT = /\.(hdr|exr|pic)$/i;
 const MATERIAL = /\.mtlx$/i;
@@ -25,7 +29,10 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
   const paths = [...files.keys()];
   // Of several documents the one nearest to the top, as asset folders keep variants below.
   const depth = (path: string) => path.split('/').length;
-  const entry = paths.filter((path) => MODEL.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))[0];
+  const [entry, ...others] = paths
+    .filter((path) => MODEL.test(path))
+    .sort((a, b) => depth(a) - depth(b) || a.localeCompare(b))
+    .filter((path, _, [first = path]) => path === first || (depth(path) === depth(first) && !USD.test(first)));
   const environmentPath = paths.find((path) => ENVIRONMENT.test(path));
   const look = paths.find((path) => MATERIAL.test(path));
   if (entry === undefined && environmentPath === undefined && look === undefined) {
@@ -39,6 +46,7 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
   const material = look === undefined ? undefined : files.get(look);
   return {
     ...(entry === undefined ? {} : { model: { files, entry } }),
+    ...(others.length > 0 ? { others } : {}),
     ...(environment ? { environment } : {}),
     ...(material ? { material } : {}),
   };
@@ -47,3 +55,7 @@ export function sortFiles(files: ReadonlyMap<string, File>): GivenFiles {
 /** What the page says of an environment that cannot be read, and came together with a model. */
 export const environmentNote = (error: unknown): string =>
   `${describeError(error).message} The model is lit as the page was before.`;
+
+/** What the page says of models that came together with the one it shows. */
+export const othersNote = (entry: string, [first, ...more]: readonly string[]): string =>
+  `Of these models, "${entry}" is shown. Open ${more.length > 0 ? `the other ${more.length + 1}` : `"${first}"`} separately.`;
