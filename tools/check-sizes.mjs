@@ -27,8 +27,9 @@ const BUDGETS = [
   // 92 before edits could be taken back, films saved and resumed, and hierarchies over instances changed in place; 107
   // before paths wrote AOVs and motion, edits were classified, and lights had ids; 113 before it chose where hierarchies
   // are built, placed those of the GPU, and read them back for edits; 115 before guides, which are loaded later.
-  // 115.1 before soft shadows on catchers, whose shader is loaded later: what asks for it is here.
-  { specifier: '@glanz/renderer', limit: 115.3, withDependencies: true },
+  // 115.1 before soft shadows on catchers, whose shader is loaded later: what asks for it is here. 115.3 before every mix
+  // of wraps and filters fitted into the samplers that a shader binds.
+  { specifier: '@glanz/renderer', limit: 115.4, withDependencies: true },
   { specifier: '@glanz/gltf', limit: 40, withDependencies: true },
   // 14 before it kept samples through the loss of a GPU and checked all that it is given; 19 before models were placed
   // on a ground and played; the code for both is loaded later.

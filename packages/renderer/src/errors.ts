@@ -53,3 +53,16 @@ export const deviceLost = ({ reason, message }: GPUDeviceLostInfo): DeviceError 
  * - `renderer/no-triangles`: nothing in the scene is visible. Show an instance whose transform keeps it an extent.
  */
 export class RenderError extends GlanzError {}
+
+/** Names listed in an error message, at most. */
+const LISTED_NAMES = 50;
+
+/** The error where the scene has nothing of a kind with this name or index. @param code `renderer/` and the kind. */
+export function notFound(code: string, nameOrIndex: unknown, list: readonly { readonly name: string }[]): RenderError {
+  const names = list.slice(0, LISTED_NAMES).map(({ name }) => name);
+  const more = list.length > LISTED_NAMES ? ` and ${list.length - LISTED_NAMES} more` : '';
+  return new RenderError(
+    code,
+    `The scene has no ${code.slice(9)} ${JSON.stringify(nameOrIndex)}; it has: ${names.join(', ') || 'none'}${more}.`,
+  );
+}

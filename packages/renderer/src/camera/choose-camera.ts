@@ -1,5 +1,5 @@
 import { frameCameraSteps, type Camera, type Scene } from '@glanz/scene';
-import { RenderError } from '../errors';
+import { notFound } from '../errors';
 
 /**
  * A camera as the options name it: an object, one of the scene's by index or name, or by default the scene's first or
@@ -14,11 +14,7 @@ export function* cameraSteps(
   if (typeof camera === 'object') return camera;
   if (camera === undefined) return scene.cameras[0] ?? (yield* frameCameraSteps(scene, { aspect }));
   const found = typeof camera === 'number' ? scene.cameras[camera] : scene.cameras.find(({ name }) => name === camera);
-  if (!found)
-    throw new RenderError(
-      'renderer/camera',
-      `The scene has no camera ${JSON.stringify(camera)}; it has: ${scene.cameras.map(({ name }) => name).join(', ') || 'none'}.`,
-    );
+  if (!found) throw notFound('renderer/camera', camera, scene.cameras);
   return found;
 }
 

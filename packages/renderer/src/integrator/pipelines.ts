@@ -4,6 +4,7 @@ import { beginShaderModule, compose, wgslModule, type ComposedWgsl, type WgslMod
 import { DeviceError } from '../errors';
 import { inErrorScopes, lossOr } from '../device/error-scopes';
 import type { TexturedParameterInfo } from '../materials/materials';
+import type { Sampling } from '../materials/textures';
 import advance from './advance.wesl';
 import aov from '../film/aov.wesl';
 import aovIds from '../film/aov_ids.wesl';
@@ -38,7 +39,7 @@ import traversal from '../geometry/traversal.wesl';
 /** What about a scene decides the text of its kernels. Two scenes with equal features share pipelines. */
 export interface KernelFeatures {
   readonly flags: Readonly<Record<string, boolean>>;
-  readonly samplings: readonly (readonly [number, number])[];
+  readonly samplings: readonly Sampling[];
   readonly textured: readonly TexturedParameterInfo[];
   readonly textureCount: number;
   readonly samplerCount: number;

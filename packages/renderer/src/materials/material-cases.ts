@@ -1,6 +1,7 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl';
 import { BINDING_SCALE } from '../storage/layout';
 import type { TexturedParameterInfo } from './materials';
+import type { Sampling } from './textures';
 
 /** What a texture does to a parameter; those that a map gives another meaning stand in {@link DIRECTION}. */
 const FACTOR = {
@@ -26,21 +27,21 @@ const NEEDED: Readonly<Record<string, string>> = {
 };
 
 /**
- * What `material.wesl` asks for in a scene with textures: a case for each pair of texture array and sampler, and one
- * for each parameter that some material textures.
+ * What `material.wesl` asks for in a scene with textures: a case for each way to read a texel, and one for each
+ * parameter that some material textures.
  *
- * @param samplings Pairs of texture array and sampler indices, in the order of the records' `sampling` numbers.
+ * @param samplings In the order of the records' `sampling` numbers.
  * @param textured Parameters that are textured, with their number in the records and what they are.
  * @param flags Of the kernels.
  */
 export function materialCases(
-  samplings: readonly (readonly [texture: number, sampler: number])[],
+  samplings: readonly Sampling[],
   textured: readonly TexturedParameterInfo[],
   flags: Readonly<Record<string, boolean>>,
 ): WgslModule {
   const texels = samplings.map(
-    ([texture, sampler], index) =>
-      `case ${index}u: { return textureSampleLevel(scene_texture_${texture}, scene_sampler_${sampler}, uv, layer, lod); }`,
+    ([texture, sampler, at], index) =>
+      `case ${index}u: { return textureSampleLevel(scene_texture_${texture}, scene_sampler_${sampler}, ${at}, layer, lod); }`,
   );
   const parameters = textured
     .filter(({ name }) => !NEEDED[name] || flags[NEEDED[name]])

@@ -43,13 +43,16 @@ export interface TextureArray {
   readonly layers: number[];
 }
 
+/** Texture array, sampler, and the WGSL expression of `uv` at which they are read. */
+export type Sampling = readonly [array: number, sampler: number, uv: string];
+
 /** How a scene's textures lie on the GPU. */
 export interface TexturePlan {
   readonly arrays: readonly TextureArray[];
   /** Distinct samplers, as descriptors. */
   readonly samplers: readonly GPUSamplerDescriptor[];
-  /** Distinct pairs of array and sampler; a shader case each. */
-  readonly samplings: readonly (readonly [array: number, sampler: number])[];
+  /** Distinct ways to read a texel; a shader case each. */
+  readonly samplings: readonly Sampling[];
   /** For each scene texture that is used: its sampling case, its layer and the size of its image there. */
   readonly placements: ReadonlyMap<
     number,
@@ -58,12 +61,13 @@ export interface TexturePlan {
 }
 
 const addressMode = { repeat: 'repeat', mirror: 'mirror-repeat', clamp: 'clamp-to-edge' } as const;
+/** The same, in the shader. */
+const WRAPPED = { repeat: 'fract(uv)', mirror: 'abs(uv - 2.0 * round(0.5 * uv))', clamp: 'uv' } as const;
 
 function formatOf(image: Image, texture: Texture, compressed: readonly CompressedFormat[]): TextureFormat {
-  const format = compressedOf(image, compressed)?.format;
-  if (format) return texture.color_space === 'srgb' ? `${format}-srgb` : format;
-  if (!image.bitmap && image.data instanceof Float32Array) return 'rgba16float';
-  return texture.color_space === 'srgb' ? 'rgba8unorm-srgb' : 'rgba8unorm';
+  const isFloat = !image.bitmap && image.data instanceof Float32Array;
+  const format = compressedOf(image, compressed)?.format ?? (isFloat ? 'rgba16float' : 'rgba8unorm');
+  return texture.color_space === 'srgb' && format !== 'rgba16float' ? `${format}-srgb` : format;
 }
 
 /** The blocks of an image that stays in blocks on this device. */
@@ -174,6 +178,13 @@ function mergeArrays(drafts: Draft[], slots: number, limits: TextureLimits): voi
   }
 }
 
+/** The index of an equal item, which is added where there is none. */
+function indexIn<T>(list: T[], item: T): number {
+  const text = JSON.stringify(item);
+  const at = list.findIndex((one) => JSON.stringify(one) === text);
+  return at < 0 ? list.push(item) - 1 : at;
+}
+
 function placeTextures(
   scene: Scene,
   textures: readonly number[],
@@ -181,36 +192,27 @@ function placeTextures(
   compressed: readonly CompressedFormat[],
 ): TexturePlan {
   const samplers: GPUSamplerDescriptor[] = [];
-  const samplings: [number, number][] = [];
+  const samplings: Sampling[] = [];
   const placements = new Map<number, { sampling: number; layer: number; width: number; height: number }>();
   for (const index of textures) {
     const texture = scene.textures[index] as Texture;
     const format = formatOf(scene.images[texture.image] as Image, texture, compressed);
     const array = drafts.findIndex((d) => d.format === format && d.layers.includes(texture.image));
-    const draft = drafts[array] as Draft;
-    const filter = texture.filter ?? 'linear';
-    const descriptor: GPUSamplerDescriptor = {
-      addressModeU: addressMode[texture.wrap_u ?? 'repeat'],
-      addressModeV: addressMode[texture.wrap_v ?? 'repeat'],
+    const { layers, width, height } = drafts[array] as Draft;
+    const { filter = 'linear', wrap_u: u = 'repeat', wrap_v: v = 'repeat' } = texture;
+    // A stage binds 16 samplers, fewer than there are ways to wrap and filter. The nearest texel has no neighbours to
+    // blend with at the edges, so that the shader can wrap.
+    const near = filter === 'nearest';
+    const sampler = indexIn(samplers, {
+      addressModeU: addressMode[near ? 'clamp' : u],
+      addressModeV: addressMode[near ? 'clamp' : v],
       magFilter: filter,
       minFilter: filter,
       mipmapFilter: filter,
-    };
-    let sampler = samplers.findIndex(
-      (s) =>
-        s.addressModeU === descriptor.addressModeU &&
-        s.addressModeV === descriptor.addressModeV &&
-        s.magFilter === descriptor.magFilter,
-    );
-    if (sampler < 0) sampler = samplers.push(descriptor) - 1;
-    let sampling = samplings.findIndex(([a, s]) => a === array && s === sampler);
-    if (sampling < 0) sampling = samplings.push([array, sampler]) - 1;
-    placements.set(index, {
-      sampling,
-      layer: draft.layers.indexOf(texture.image),
-      width: draft.width,
-      height: draft.height,
     });
+    const uv = near ? `vec2f(${WRAPPED[u]}.x, ${WRAPPED[v]}.y)` : 'uv';
+    const sampling = indexIn(samplings, [array, sampler, uv]);
+    placements.set(index, { sampling, layer: layers.indexOf(texture.image), width, height });
   }
   return { arrays: drafts, samplers, samplings, placements };
 }

@@ -8,7 +8,7 @@ import {
   type Mesh,
   type Scene,
 } from '@glanz/scene';
-import { RenderError } from '../errors';
+import { notFound, RenderError } from '../errors';
 import { EnvironmentEditor, type EnvironmentAdjustment } from './environment-editor';
 import type { GpuScene } from './gpu-scene';
 import type { SceneChange } from './scene-change';
@@ -37,18 +37,6 @@ export function ownScene(scene: Scene): Scene {
     lights: scene.lights.map((light) => ({ ...light })),
   };
 }
-
-/** Names listed in an error message, at most. */
-const LISTED_NAMES = 50;
-
-const names = (list: readonly { readonly name: string }[]) => {
-  const listed =
-    list
-      .slice(0, LISTED_NAMES)
-      .map(({ name }) => name)
-      .join(', ') || 'none';
-  return list.length > LISTED_NAMES ? `${listed} and ${list.length - LISTED_NAMES} more` : listed;
-};
 
 /**
  * Edits of a scene that is on the GPU. Each method checks what it is given and prepares what takes time (hierarchies),
@@ -121,11 +109,7 @@ export class SceneEditor {
     const { lights } = this.scene;
     const index = typeof nameOrIndex === 'number' ? nameOrIndex : lights.findIndex(({ name }) => name === nameOrIndex);
     const light = lights[index];
-    if (!light)
-      throw new RenderError(
-        'renderer/light',
-        `The scene has no light ${JSON.stringify(nameOrIndex)}; it has: ${names(lights)}.`,
-      );
+    if (!light) throw notFound('renderer/light', nameOrIndex, lights);
     const next = { ...light, ...change, type: light.type } as Light;
     validateScene({ ...createScene(), lights: [next] });
     return {
@@ -187,9 +171,10 @@ export class SceneEditor {
     const all = this.scene.variants ?? [];
     const index = typeof variant === 'string' ? all.indexOf(variant) : variant;
     if (index !== undefined && all[index] === undefined)
-      throw new RenderError(
+      throw notFound(
         'renderer/variant',
-        `The scene has no variant ${JSON.stringify(variant)}; it has: ${all.join(', ') || 'none'}.`,
+        variant,
+        all.map((name) => ({ name })),
       );
     const materialOf = (instance: Instance, i: number) =>
       (index === undefined ? undefined : instance.variants?.[index]) ?? (this.#plain[i] as number);
@@ -214,11 +199,7 @@ export class SceneEditor {
   async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<SceneChange> {
     const index =
       typeof nameOrIndex === 'number' ? nameOrIndex : this.scene.meshes.findIndex(({ name }) => name === nameOrIndex);
-    if (!this.scene.meshes[index])
-      throw new RenderError(
-        'renderer/mesh',
-        `The scene has no mesh ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.meshes)}.`,
-      );
+    if (!this.scene.meshes[index]) throw notFound('renderer/mesh', nameOrIndex, this.scene.meshes);
     validateScene({ ...createScene(), meshes: [mesh] });
     const changed = () => ({ ...this.scene, meshes: this.scene.meshes.map((old, i) => (i === index ? mesh : old)) });
     await this.#build(changed());
@@ -292,11 +273,7 @@ export class SceneEditor {
 
   #material(nameOrIndex: string | number): number {
     const index = findMaterial(this.scene, nameOrIndex);
-    if (index < 0)
-      throw new RenderError(
-        'renderer/material',
-        `The scene has no material ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.materials)}.`,
-      );
+    if (index < 0) throw notFound('renderer/material', nameOrIndex, this.scene.materials);
     return index;
   }
 
@@ -318,11 +295,7 @@ export class SceneEditor {
       typeof nameOrIndex === 'string'
         ? this.#byName.get(nameOrIndex)
         : this.scene.instances[nameOrIndex] && [nameOrIndex];
-    if (!found)
-      throw new RenderError(
-        'renderer/instance',
-        `The scene has no instance ${JSON.stringify(nameOrIndex)}; it has: ${names(this.scene.instances)}.`,
-      );
+    if (!found) throw notFound('renderer/instance', nameOrIndex, this.scene.instances);
     return found;
   }
 

@@ -69,6 +69,80 @@ it('60 textures of mixed sizes, kinds and wrap modes, within the default limits'
   });
 }, 300_000);
 
+it('all ways to wrap and to filter in one scene, within the default limits', async () => {
+  const scene = createScene();
+  const side = 4;
+  const code = (x: number, y: number, k: number) => (53 * x + 97 * y + 31 * k * (x + 1)) % 256;
+  const data = new Uint8Array(4 * side * side);
+  for (let y = 0; y < side; y++)
+    for (let x = 0; x < side; x++) data.set([0, 1, 2].map((k) => code(x, y, k)).concat(255), 4 * (y * side + x));
+  scene.images.push({ name: 'texels', width: side, height: side, data });
+  const wraps = {
+    repeat: (i: number) => i - side * Math.floor(i / side),
+    mirror: (i: number) => {
+      const j = i - 2 * side * Math.floor(i / (2 * side));
+      return j < side ? j : 2 * side - 1 - j;
+    },
+    clamp: (i: number) => Math.min(Math.max(i, 0), side - 1),
+  };
+  const names = ['repeat', 'mirror', 'clamp'] as const;
+  /** Texels that a coordinate reads, with their weights. */
+  const read = (at: number, wrap: (typeof names)[number], filter: 'nearest' | 'linear') => {
+    if (filter === 'nearest') return [[wraps[wrap](Math.floor(at * side)), 1]] as const;
+    const x = at * side - 0.5;
+    const f = x - Math.floor(x);
+    return [
+      [wraps[wrap](Math.floor(x)), 1 - f],
+      [wraps[wrap](Math.floor(x) + 1), f],
+    ] as const;
+  };
+  const expected: number[][] = [];
+  for (const [u, v] of [
+    [1.3, -0.55],
+    [-0.8, 2.35],
+    [0.62, 1.9],
+  ] as const)
+    for (const filter of ['nearest', 'linear'] as const)
+      for (const wrap_u of names)
+        for (const wrap_v of names) {
+          const i = expected.length;
+          const texture = scene.textures.push({ image: 0, color_space: 'linear', filter, wrap_u, wrap_v }) - 1;
+          const [x, y] = [(i % 8) * 0.25 - 0.875, 0.875 - Math.floor(i / 8) * 0.25];
+          addQuad(
+            scene,
+            0.12,
+            0,
+            {
+              name: `tile ${i}`,
+              parameters: { base_color: [1, 1, 1], specular_weight: 0 },
+              textures: { base_color: { texture, channels: 'rgb' } },
+            },
+            { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, 0, 1] },
+          );
+          // One place of the image all over the tile.
+          scene.meshes[i] = { ...scene.meshes[i]!, uvs: [new Float32Array([u, v, u, v, u, v, u, v])] };
+          expected.push(
+            [0, 1, 2].map((k) => {
+              let sum = 0;
+              for (const [tx, a] of read(u, wrap_u, filter))
+                for (const [ty, b] of read(v, wrap_v, filter)) sum += (a * b * code(tx, ty, k)) / 255;
+              return sum;
+            }),
+          );
+        }
+  scene.environment = { type: 'constant', radiance: [1, 1, 1] };
+  const size = 64;
+  const tracer = await PathTracer.create(device, scene, { width: size, height: size, camera, maxDepth: 2 });
+  for await (const progress of tracer.render({ samples: 4 })) void progress;
+  const pixels = await tracer.read('beauty');
+  tracer.destroy();
+  expected.forEach((color, i) => {
+    const at = 4 * (Math.floor(8 * (Math.floor(i / 8) + 0.5)) * size + Math.floor(8 * ((i % 8) + 0.5)));
+    // Filters of GPUs have weights of 8 bits.
+    color.forEach((c, k) => expect(Math.abs(pixels[at + k]! - c), `tile ${i}`).toBeLessThan(0.006));
+  });
+});
+
 /** A floor of tiles, each with a texture of a size of its own and of one colour, and a ceiling that light comes from. */
 function tiles(count: number): Scene {
   const scene = createScene();
