@@ -48,28 +48,24 @@ export function wireCommands({ store, session, rig, selection, canvas, say }: Co
     { keys: ['d'], title: 'Focus by click', run: focus },
     { keys: ['h'], title: 'Hide the selected parts', run: hide },
     { keys: ['shift+h'], title: 'Show all parts', run: () => store.set({ hidden: [] }, { label: 'Show all' }) },
-    ...(['move', 'rotate', 'scale'] as const).map((tool, i) => ({
-      keys: ['grs'.charAt(i)],
-      title: ['Move the selected parts', 'Rotate the selected parts', 'Scale the selected parts'][i] as string,
-      run: () => document.getElementById(`tool-${tool}`)?.click(),
+    ...Object.entries({ g: 'Move', r: 'Rotate', s: 'Scale' }).map(([key, tool]) => ({
+      keys: [key],
+      title: `${tool} the selected parts`,
+      run: () => document.getElementById(`tool-${tool.toLowerCase()}`)?.click(),
     })),
-    { keys: ['1'], title: 'View from the front', run: () => rig.look('front') },
-    { keys: ['3'], title: 'View from the right', run: () => rig.look('right') },
-    { keys: ['7'], title: 'View from the top', run: () => rig.look('top') },
-    { keys: ['9'], title: 'View from the corner', run: () => rig.look('corner') },
+    ...Object.entries({ 1: 'front', 3: 'right', 7: 'top', 9: 'corner' } as const).map(([key, side]) => ({
+      keys: [key],
+      title: `View from the ${side}`,
+      run: () => rig.look(side),
+    })),
     {
       keys: ['5'],
       title: 'Perspective or orthographic',
-      run: () =>
-        store.set(
-          {
-            lens: {
-              ...store.state.lens,
-              projection: store.state.lens.projection === 'perspective' ? 'orthographic' : 'perspective',
-            },
-          },
-          { label: 'Projection' },
-        ),
+      run: () => {
+        const { lens } = store.state;
+        const projection = lens.projection === 'perspective' ? 'orthographic' : 'perspective';
+        store.set({ lens: { ...lens, projection } }, { label: 'Projection' });
+      },
     },
     { keys: ['l'], title: 'Rotate the environment to the left', run: () => turn(10) },
     { keys: [';'], title: 'Rotate the environment to the right', run: () => turn(-10) },

@@ -1,7 +1,6 @@
 import { byId } from './elements';
 
 const THEMES = ['', 'light', 'dark'] as const;
-const TITLES = { '': 'system', light: 'light', dark: 'dark' } as const;
 
 /** The button that cycles through the themes; the choice stays in this browser. */
 export function wireTheme(): void {
@@ -9,8 +8,8 @@ export function wireTheme(): void {
   const root = document.documentElement;
   const show = () => {
     const theme = THEMES.find((name) => name === root.dataset['theme']) ?? '';
-    button.setAttribute('aria-label', `Theme: ${TITLES[theme]}`);
-    button.title = `Theme: ${TITLES[theme]}`;
+    button.title = `Theme: ${theme || 'system'}`;
+    button.setAttribute('aria-label', button.title);
     return theme;
   };
   button.addEventListener('click', () => {
