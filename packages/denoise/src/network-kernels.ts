@@ -85,13 +85,15 @@ export class NetworkKernels {
   convolution({ layer, shape, result }: LayerPlan): Promise<Kernel> {
     const up = layer.up !== undefined;
     const last = result === undefined;
-    const key = `${shapeName(shape)}${up ? ', upsampled' : ''}${layer.pool ? ', pooled' : ''}${last ? `, last, ${this.#input}` : ''}`;
+    // Kernels differ by how many channels the last vector of a source holds.
+    const rest = layer.directChannels % 4;
+    const key = `${shapeName(shape)}${up ? ', upsampled' : ''}${rest === 0 ? '' : `, ${rest} of 4 channels`}${layer.pool ? ', pooled' : ''}${last ? `, last, ${this.#input}` : ''}`;
     let kernel = this.#convolutions.get(key);
     if (!kernel) {
       const bindings: Record<number, BindingKind> = { 0: 'uniform', 1: 'dynamic', 2: 'read', 3: 'read', 5: 'write' };
       if (up) bindings[4] = 'read';
       if (last) Object.assign(bindings, { 6: 'dynamic', 7: 'read', 8: 'read' });
-      const module = convolutionModule({ shape, up, pool: layer.pool, last });
+      const module = convolutionModule({ shape, up, directChannels: layer.directChannels, pool: layer.pool, last });
       kernel = compileKernel(this.#device, `denoise ${key}`, module, this.#flags, bindings);
       this.#convolutions.set(key, kernel);
       // A failure is not kept: the next call tries again.

@@ -96,7 +96,7 @@ function estimate(layer: Layer, shape: KernelShape, efficiency: number, width: n
   const sums = 4 * shape.rows * shape.outputs;
   const atOnce = Math.max(1, Math.floor(Math.min(REGISTERS / (sums + 64), 1536) / threads));
   const quads = Math.ceil(layer.upChannels / 4) + Math.ceil(layer.directChannels / 4);
-  const multiplications = sums * (4 * layer.upChannels + 9 * 4 * Math.ceil(layer.directChannels / 4));
+  const multiplications = sums * (4 * layer.upChannels + 9 * layer.directChannels);
   const waves = Math.ceil(workgroups / (PROCESSORS * atOnce));
   const together = Math.min(atOnce, Math.ceil(workgroups / PROCESSORS));
   const compute = multiplications * Math.max(LATENCY, (together * threads) / LANES / efficiency);

@@ -9,6 +9,8 @@ export interface ConvolutionKernel {
   readonly shape: KernelShape;
   /** Whether the first source is at half of the resolution, to be upsampled. */
   readonly up: boolean;
+  /** Channels of the source at full resolution. The last vector of four may hold fewer, which are all that is added. */
+  readonly directChannels: number;
   /** Whether the maximum of 2×2 pixels is stored. */
   readonly pool: boolean;
   /** Whether this is the last layer, whose result is decoded into the caller's image. */
@@ -30,6 +32,8 @@ class Emitter {
   readonly #shape: KernelShape;
   /** Vectors of output channels a thread. */
   readonly #quads: number;
+  /** Output channels a thread that are computed: the last layer has three, and its vector a place to spare. */
+  readonly #outputs: number;
   readonly #patchRows: number;
   readonly #threads: number;
 
@@ -37,6 +41,7 @@ class Emitter {
     this.#kernel = kernel;
     this.#shape = kernel.shape;
     this.#quads = kernel.shape.outputs / 4;
+    this.#outputs = kernel.last ? 3 : kernel.shape.outputs;
     this.#patchRows = tileHeight(kernel.shape) + 2;
     this.#threads = threadsOf(kernel.shape);
   }
@@ -132,7 +137,7 @@ fn denoise_stage_${source}_weights(first: u32, output: u32, thread: u32) {
 
   /** Adds the 3×3 correlation of an input channel. */
   direct(): string {
-    const { rows, outputs } = this.#shape;
+    const { rows } = this.#shape;
     const step = this.#kernel.up ? 2 : 1;
     const text: string[] = [];
     const read = new Set<number>();
@@ -151,7 +156,7 @@ fn denoise_stage_${source}_weights(first: u32, output: u32, thread: u32) {
           text.push(`let v${j} = ${SHIFTED[kx]!.replace('$a', `r${d}a`).replace('$b', `r${d}b`)};`);
         }
         for (let j = 0; j < rows; j++)
-          for (let n = 0; n < outputs; n++) text.push(`s${j}_${n} += v${j} * w${n >> 2}.${XYZW[n & 3]};`);
+          for (let n = 0; n < this.#outputs; n++) text.push(`s${j}_${n} += v${j} * w${n >> 2}.${XYZW[n & 3]};`);
         text.push('}');
       }
     }
@@ -223,6 +228,9 @@ fn denoise_stage_${source}_weights(first: u32, output: u32, thread: u32) {
     const staged = stagesWeights(this.#shape);
     const channels = up && staged ? stagedUpChannels(this.#shape, true) : 4;
     const before = up ? '(quad * 4u + channel) * 16u + parity * 8u' : '(quad * 4u + channel) * 9u';
+    // Inputs of 9 channels (color, albedo, normal) are 12 with padding: a quarter of the work of the first layer.
+    const rest = up ? 0 : this.#kernel.directChannels % 4;
+    const count = rest === 0 ? `${channels}u` : `select(4u, ${rest}u, quad + 1u == denoise_layer.direct_quads)`;
     const unstaged = `denoise_layer.${source}_weights + (${before}) * denoise_layer.output_quads + output`;
     return /* wgsl */ `
   for (var quad = 0u; quad < denoise_layer.${source}_quads; quad++) {
@@ -231,7 +239,7 @@ fn denoise_stage_${source}_weights(first: u32, output: u32, thread: u32) {
       if (first == 0u) { denoise_stage_${source}(quad, ${up ? 'corner / 2u' : 'corner'}, thread); }
       ${staged ? `denoise_stage_${source}_weights(quad * 4u + first, first_output, thread);` : ''}
       workgroupBarrier();
-      for (var channel = 0u; channel < ${channels}u; channel++) {
+      for (var channel = 0u; channel < ${count}; channel++) {
         let patch_channel = first + channel;
         ${staged ? '' : `let row = ${unstaged};`}
 ${up ? this.up() : this.direct()}

@@ -33,6 +33,8 @@ const RAISED_LIMITS = [
 const WELCOME_FEATURES = [
   'timestamp-query',
   'subgroups',
+  // Of @glanz/denoise.
+  'shader-f16',
   'float32-filterable',
   'texture-compression-bc',
   'texture-compression-astc',
