@@ -7,13 +7,14 @@ import { describe, expect, it } from 'vitest';
 import { parseFarm } from '../src/commands/farm/parse';
 import { run as glanz, temporaryFolder, triangleScene } from './fakes';
 import { makeGlb } from './glb';
-import { findOpenJd } from './openjd-program';
 import { bundleProgram } from './program';
+import { findKubernetesValidate, findOpenJd } from './python-program';
+import { findSlurm, type CheckScript } from './slurm-program';
 
 const program = fileURLToPath(new URL('../.cache/glanz-schedulers.mjs', import.meta.url));
 const examples = fileURLToPath(new URL('../../../apps/docs/examples/farm/', import.meta.url));
 const run = promisify(execFile);
-const openjd = await findOpenJd();
+const [openjd, kubernetes, slurm] = await Promise.all([findOpenJd(), findKubernetesValidate(), findSlurm()]);
 
 /** A folder with a model, a batch, and the command as a script. */
 function folderWith(batch: object): string {
@@ -157,7 +158,23 @@ describe('the examples of the documentation', () => {
     // Options of sbatch are comments at the beginning.
     const text = readFileSync(join(examples, 'slurm.sh'), 'utf8');
     expect(text.match(/^#SBATCH --[a-z-]+=\S+$/gm)).toContain('#SBATCH --array=0-239');
+    // Without "B:" the signal goes to the steps of a job, and this one has none.
+    expect(text).toMatch(/^#SBATCH --signal=B:TERM@60$/m);
+    expect(text).toMatch(/^exec glanz /m);
   });
+
+  it.skipIf(slurm.missing !== undefined)(
+    slurm.missing ?? 'Slurm: sbatch accepts the options of the array',
+    async () => {
+      const { check } = slurm as { check: CheckScript };
+      const script = join(examples, 'slurm.sh');
+      // Options are checked first: what it misses is the controller.
+      expect(await check(script)).toMatch(/^allocation failure: Unable to contact slurm controller[^\n]*\n?$/);
+      const wrong = join(temporaryFolder(), 'wrong.sh');
+      writeFileSync(wrong, readFileSync(script, 'utf8').replace('--gres=gpu:1', '--gpus-per-task=1'));
+      expect(await check(wrong)).toMatch(/Failed to validate job spec/);
+    },
+  );
 
   it('Kubernetes: an indexed job, whose command the program reads', () => {
     const job = JSON.parse(readFileSync(join(examples, 'kubernetes.json'), 'utf8')) as {
@@ -191,4 +208,19 @@ describe('the examples of the documentation', () => {
     const volumes = spec.volumes.map(({ name }) => name);
     for (const { name } of container!.volumeMounts) expect(volumes).toContain(name);
   });
+
+  it.skipIf(kubernetes.missing !== undefined)(
+    kubernetes.missing ?? 'Kubernetes: the schemas of its versions accept the job',
+    async () => {
+      const file = join(examples, 'kubernetes.json');
+      const validate = (version: string, path: string) => run(kubernetes.file!, ['--strict', '-k', version, path]);
+      for (const version of ['1.28', '1.31', '1.34'])
+        expect((await validate(version, file)).stdout).toMatch(/passed for resource job\/catalogue/);
+      const wrong = join(temporaryFolder(), 'wrong.json');
+      writeFileSync(wrong, readFileSync(file, 'utf8').replace('"completionMode"', '"completionsMode"'));
+      await expect(validate('1.34', wrong)).rejects.toMatchObject({
+        stdout: expect.stringMatching(/'completionsMode' was unexpected/),
+      });
+    },
+  );
 });
