@@ -1,3 +1,8 @@
 import { glanzPackage } from '../../tsup.base';
 
-export default glanzPackage({ index: 'src/index.ts', studio: 'src/studio.ts', node: 'src/node.ts' });
+export default glanzPackage({
+  index: 'src/index.ts',
+  studio: 'src/studio.ts',
+  'texture-budget': 'src/texture-budget.ts',
+  node: 'src/node.ts',
+});

@@ -51,6 +51,8 @@ const STATISTICS: RenderStatistics = {
     lights: 0,
     materials: 1,
     textures: 0,
+    fullTextures: 0,
+    reducedTextures: [],
     environment: 0,
     paths: 1,
     film: 1,

@@ -1,7 +1,7 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, arrays beyond a binding,
-// animations, a ground, guiding, noise targets), and what saves images, lies beside it and is fetched by import() when
+// animations, a ground, guiding, noise targets, textures beyond a budget), and what saves images, lies beside it and is fetched by import() when
 // it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
@@ -44,6 +44,7 @@ const LATER = {
   './paged-kernels': 'glanz-viewer.paged-kernels.min.js',
   './session/guide-training': 'glanz-viewer.guide.min.js',
   './film-kernels': 'glanz-viewer.film-kernels.min.js',
+  './fit-textures': 'glanz-viewer.fit-textures.min.js',
 };
 
 /** Where the modules of the sources among them are, from the viewer's folder. */
@@ -62,6 +63,7 @@ const SOURCES = {
   './paged-kernels': '../renderer/src/integrator/paged-kernels',
   './session/guide-training': '../renderer/src/session/guide-training',
   './film-kernels': '../renderer/src/integrator/film-kernels',
+  './fit-textures': '../renderer/src/scene/fit-textures',
 };
 
 const pick = (...modules) => Object.fromEntries(modules.map((module) => [module, LATER[module]]));
@@ -149,7 +151,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|paged\/pages|paged-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|paged\/pages|paged-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

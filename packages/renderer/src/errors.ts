@@ -50,6 +50,8 @@ export const deviceLost = ({ reason, message }: GPUDeviceLostInfo): DeviceError 
  * - `renderer/shutter`: the film restarted during `renderShutter()`. Edit the scene in `pose` only.
  * - `renderer/destroyed`: the tracer was used after `destroy()`. Create another one.
  * - `renderer/busy`: `render()` was called while another one runs. Finish that loop, or abort it.
+ * - `renderer/textures-reduced` (a warning, see `PathTracerOptions.onWarning`): textures have lost levels to fit into
+ *   memory. Raise `memory.budgetMiB`, or free GPU memory.
  * - `renderer/no-triangles`: nothing in the scene is visible. Show an instance whose transform keeps it an extent.
  */
 export class RenderError extends GlanzError {}

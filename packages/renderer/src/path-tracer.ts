@@ -55,6 +55,7 @@ export class PathTracer extends TracerEdits {
   readonly #session: FilmSession;
   readonly #edits: EditSession;
   readonly #times: Prepared['times'];
+  readonly #textures: Prepared['textures'];
   readonly #ignoreLoss: () => void;
   #options: TracerSettings;
   #camera: Camera;
@@ -81,6 +82,7 @@ export class PathTracer extends TracerEdits {
     this.#camera = this.#shownCamera = prepared.camera;
     this.#options = prepared.options;
     this.#times = prepared.times;
+    this.#textures = prepared.textures;
     this.#session = new FilmSession(
       {
         device,
@@ -117,7 +119,7 @@ export class PathTracer extends TracerEdits {
    * @param scene Not changed; edits go through the tracer's methods.
    * @throws {RenderError} `renderer/size`, `renderer/camera`, `renderer/no-triangles`, `renderer/filter`,
    * `renderer/light-groups`, `renderer/option`
-   * @throws {SceneError} if the scene's parts do not fit together
+   * @throws {SceneError} if the scene's parts do not fit together, or its textures into `memory.budgetMiB`
    * @throws {DeviceError} `renderer/limit`, `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
    */
   static async create(device: GPUDevice, scene: Scene, options: PathTracerOptions): Promise<PathTracer> {
@@ -246,6 +248,7 @@ export class PathTracer extends TracerEdits {
         triangles,
         pixels: this.#session.film.fullWidth * this.#session.film.fullHeight,
         texels: this.#gpuScene.texels,
+        textures: this.#textures,
       }),
       badSamples: this.#session.badSamples,
     };

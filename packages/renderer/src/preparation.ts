@@ -3,7 +3,7 @@ import { biasedFlags } from './biased-options';
 import { cameraUniforms } from './camera/camera';
 import { cameraSteps } from './camera/choose-camera';
 import { viewFlags } from './camera/view';
-import { withErrorScopes } from './device/error-scopes';
+import { inErrorScopes, withErrorScopes } from './device/error-scopes';
 import { environmentSteps, type EnvironmentData } from './environment/environment';
 import { RenderError } from './errors';
 import { aovBuffers, aovFlags } from './film/aovs';
@@ -17,9 +17,10 @@ import type { Kernel, KernelFeatures, KernelName } from './integrator/pipelines'
 import { lightGroupTable } from './lights/light-groups';
 import { lightSteps, type GatheredLights } from './lights/lights';
 import { energyTextures, type EnergyTextures } from './materials/energy-textures';
+import { TextureFit } from './scene/texture-fit';
 import { parametersOf } from './materials/parameters';
 import { checkInteriors, type TracerSettings } from './option-checks';
-import { expectedFeatures } from './scene/features';
+import { expectedFeatures, texturePlan } from './scene/features';
 import { GpuScene } from './scene/gpu-scene';
 import { ownScene } from './scene/scene-editor';
 import { stageOf, type AnyStage } from './schedule/stages';
@@ -37,6 +38,8 @@ export interface Products {
   readonly camera: Camera;
   /** Arrays that will probably be too large for buffers. */
   readonly pages: Pages | undefined;
+  /** Textures of the scene that do not fit have lost levels. */
+  readonly textures: TextureFit;
   /** What the kernels' text will probably depend on, before the shapes are known. */
   readonly expected: KernelFeatures;
   /** The driver compiles the expected kernels. */
@@ -131,8 +134,19 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
     },
   }),
   stage({
-    name: 'expected',
+    name: 'textures',
     needs: ['scene', 'camera', 'pages'],
+    place: 'foreground',
+    async run({ scene, camera, pages }, { signal }) {
+      const layout = (of: Scene) => texturePlan(device, of, { ...options, pages });
+      const textures = new TextureFit({ device, scene, camera, options, layout, signal });
+      await textures.fit();
+      return textures;
+    },
+  }),
+  stage({
+    name: 'expected',
+    needs: ['scene', 'camera', 'pages', 'textures'],
     place: 'foreground',
     run: ({ scene, camera, pages }) =>
       kernelFeatures(expectedFeatures(device, scene, { ...options, pages }), camera, options),
@@ -166,16 +180,24 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
     }),
     stage({
       name: 'shapes',
-      needs: ['scene', 'geometry'],
+      needs: ['scene', 'geometry', 'textures'],
       place: 'foreground',
-      async run({ scene, geometry }, { signal }) {
+      async run({ scene, geometry, textures }, { signal }) {
         onProgress?.({ stage: 'upload', done: 0 });
         const pages = await choosePages(device, shapeBytes(scene, geometry));
-        const shapes = await withErrorScopes(
-          device,
-          'the shapes and textures of this scene',
-          () => new GpuScene(device, memory, scene, geometry, { ...options, pages }),
-        );
+        const make = () => memory.track(() => new GpuScene(device, memory, scene, geometry, { ...options, pages }));
+        let shapes: GpuScene | undefined;
+        while (!shapes) {
+          const { result, verified } = inErrorScopes(device, 'the shapes and textures of this scene', make);
+          await verified.then(
+            () => ([shapes] = result),
+            (error: unknown) => {
+              for (const resource of result[1]) memory.release(resource);
+              return textures.fit(error);
+            },
+          );
+        }
+        if (textures.warning) options.onWarning?.(textures.warning);
         await shapes.fill(signal);
         return shapes;
       },
@@ -193,7 +215,7 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
     }),
     stage({
       name: 'lights',
-      needs: ['scene'],
+      needs: ['scene', 'textures'],
       place: 'background',
       run({ scene }, { signal }) {
         const groups = lightGroupTable(scene, options.lightGroups);

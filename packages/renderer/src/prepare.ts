@@ -5,6 +5,7 @@ import type { Film } from './film/film';
 import { gpuBuilds, type HierarchyBuild } from './geometry/hierarchy';
 import type { Integrator } from './integrator/integrator';
 import { KernelCache } from './integrator/kernel-cache';
+import type { TextureFit } from './scene/texture-fit';
 import { checkSize, resolveOptions, type TracerSettings } from './option-checks';
 import type { PathTracerOptions, RenderStatistics } from './options';
 import { preparationStages } from './preparation';
@@ -24,6 +25,7 @@ export interface Prepared {
   readonly film: Film;
   readonly camera: Camera;
   readonly options: TracerSettings;
+  readonly textures: TextureFit;
   /** Times of the preparation. */
   readonly times: Pick<
     RenderStatistics,
@@ -62,7 +64,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, given: Path
       { signal: options.signal, check },
     );
     products.firstLight();
-    const { scene: own, geometry, gpuScene, integrator, film, camera } = products;
+    const { scene: own, geometry, gpuScene, integrator, film, camera, textures } = products;
     return {
       device,
       memory,
@@ -73,6 +75,7 @@ export async function prepareTracer(device: GPUDevice, scene: Scene, given: Path
       film,
       camera,
       options,
+      textures,
       times: {
         checkMs: times.expected.end - begun,
         textMs: times.request.end - times.request.begin,

@@ -27,7 +27,8 @@ export interface EngineHost {
   readonly restarted?: () => void;
   readonly error: (error: unknown, retry?: () => void) => void;
   /**
-   * The first request for a device failed; it is repeated for about two seconds before {@link Engine.ready} rejects.
+   * The first request for a device failed; it is repeated for about two seconds before {@link Engine.ready} rejects. Or
+   * memory is missing, and textures have lost their largest levels.
    */
   readonly missing?: (error: unknown) => void;
   /** The device was lost; another one is requested. */

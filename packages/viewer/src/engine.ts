@@ -304,6 +304,7 @@ export class Engine {
         height,
         signal: either,
         onProgress: (progress: PrepareProgress) => void (either.aborted || onProgress?.(progress)),
+        onWarning: this.#host.missing!,
       };
     };
     let restored = false;

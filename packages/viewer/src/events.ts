@@ -37,7 +37,8 @@ export interface ViewerEvents {
   /**
    * The viewer continues with a fallback: an environment cannot be fetched or read, and a studio lights the model
    * (`viewer/environment`; `error.cause` is what went wrong); the image cannot be denoised and is shown with its noise
-   * (`viewer/denoise`, likewise); or there is no GPU (`renderer/no-adapter`, `renderer/no-device`), and the viewer asks
+   * (`viewer/denoise`, likewise); textures lack their largest levels, because they exceed a budget or what the GPU holds
+   * (`renderer/textures-reduced`); or there is no GPU (`renderer/no-adapter`, `renderer/no-device`), and the viewer asks
    * for it again for about two seconds before `load()` fails.
    */
   warning: { readonly error: GlanzError; readonly message: string; readonly code: string };

@@ -353,6 +353,7 @@ export class GpuWorker {
       signal,
       ...(hierarchies ? { hierarchies } : {}),
       onProgress: ({ stage, done }) => progress.stage(LABELS[stage], done),
+      onWarning: ({ message }) => progress.warning(message),
     });
     this.#key = key;
     if (options.samplesFrom > 0) this.#tracer.reset({ firstSample: options.samplesFrom });

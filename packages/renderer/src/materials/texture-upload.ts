@@ -1,9 +1,6 @@
 import { compressedBytes, type Image, type Scene } from '@glanz/scene';
 import { GPU_TEXTURE_BINDING, GPU_TEXTURE_COPY_DST, GPU_TEXTURE_RENDER, type GpuMemory } from '../storage/buffers';
-import { resizePixels, type TextureArray, type TextureFormat, type TexturePlan } from './textures';
-
-/** Bytes of a texel; a byte where sixteen share a block. */
-const bytesOf = (format: TextureFormat) => (format === 'rgba16float' ? 8 : format.startsWith('rgba8') ? 4 : 1);
+import { arrayBytes, resizePixels, texelBytes, type TextureArray, type TexturePlan } from './textures';
 
 /** Each level is the box average of the one above; for sRGB textures the hardware averages linear light. */
 const MIP_SHADER = /* wgsl */ `
@@ -78,7 +75,7 @@ export function uploadTextures(
   const samplers = plan.samplers.map((descriptor) => device.createSampler(descriptor));
   const textures = plan.arrays.map((array, index) => {
     const mipLevelCount = array.levels ?? 1 + Math.floor(Math.log2(Math.max(array.width, array.height)));
-    const texel = bytesOf(array.format);
+    const texel = texelBytes(array.format);
     const texture = memory.texture(
       {
         label: `glanz scene texture ${index}`,
@@ -87,7 +84,7 @@ export function uploadTextures(
         mipLevelCount,
         usage: GPU_TEXTURE_BINDING | GPU_TEXTURE_COPY_DST | (array.levels === undefined ? GPU_TEXTURE_RENDER : 0),
       },
-      Math.ceil((array.width * array.height * array.layers.length * texel * (mipLevelCount > 1 ? 4 : 3)) / 3),
+      arrayBytes(array),
     );
     array.layers.forEach((index, layer) => {
       const image = scene.images[index] as Image;

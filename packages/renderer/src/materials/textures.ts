@@ -43,6 +43,14 @@ export interface TextureArray {
   readonly layers: number[];
 }
 
+/** Bytes of a texel; a byte where sixteen share a block. */
+export const texelBytes = (format: TextureFormat) =>
+  format === 'rgba16float' ? 8 : format.startsWith('rgba8') ? 4 : 1;
+
+/** Bytes of a texture array with its levels. */
+export const arrayBytes = ({ width, height, layers, format, levels }: TextureArray): number =>
+  Math.ceil((width * height * layers.length * texelBytes(format) * (levels === 1 ? 3 : 4)) / 3);
+
 /** Texture array, sampler, and the WGSL expression of `uv` at which they are read. */
 export type Sampling = readonly [array: number, sampler: number, uv: string];
 
@@ -65,7 +73,8 @@ const addressMode = { repeat: 'repeat', mirror: 'mirror-repeat', clamp: 'clamp-t
 const WRAPPED = { repeat: 'fract(uv)', mirror: 'abs(uv - 2.0 * round(0.5 * uv))', clamp: 'uv' } as const;
 
 function formatOf(image: Image, texture: Texture, compressed: readonly CompressedFormat[]): TextureFormat {
-  const isFloat = !image.bitmap && image.data instanceof Float32Array;
+  // Pixels that nobody has asked for yet would be unpacked, which takes time and memory.
+  const isFloat = !image.bitmap && !image.compressed && image.data instanceof Float32Array;
   const format = compressedOf(image, compressed)?.format ?? (isFloat ? 'rgba16float' : 'rgba8unorm');
   return texture.color_space === 'srgb' && format !== 'rgba16float' ? `${format}-srgb` : format;
 }

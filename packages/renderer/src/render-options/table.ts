@@ -1,4 +1,4 @@
-import type { AovName, BounceLimits, PathTracerOptions, PixelFilter, RenderOptions } from '../options';
+import type { AovName, PathTracerOptions, PixelFilter, RenderOptions } from '../options';
 
 /**
  * What a change of an option costs.
@@ -52,9 +52,9 @@ export interface FilterOption extends Row {
 }
 
 /** Limits of several kinds: integers by the name of the kind. */
-export interface LimitsOption extends Row {
+export interface LimitsOption<T extends string = string> extends Row {
   readonly type: 'limits';
-  readonly values: readonly (keyof BounceLimits)[];
+  readonly values: readonly T[];
   /** Lowest and highest value of each. */
   readonly range: readonly [number, number];
   readonly default?: undefined;
@@ -80,10 +80,10 @@ type RowOf<T> = [T] extends [number]
         ? FilterOption
         : [T] extends [readonly AovName[]]
           ? NamesOption
-          : LimitsOption;
+          : LimitsOption<keyof T & string>;
 
 /** Members of the options' interfaces that are no settings: sizes, objects and callbacks. */
-type NoSetting = 'width' | 'height' | 'camera' | 'hierarchies' | 'signal' | 'onProgress' | 'onFirstLight';
+type NoSetting = 'width' | 'height' | 'camera' | 'hierarchies' | 'signal' | 'onProgress' | 'onFirstLight' | 'onWarning';
 
 /** The options of `PathTracer.create` and `PathTracer.render` that {@link RENDER_OPTIONS} lists. */
 export type RenderSettings = Omit<PathTracerOptions & RenderOptions, NoSetting>;
@@ -150,6 +150,8 @@ export const RENDER_OPTIONS = {
   textureLodBias: { type: 'number', range: [-32, 32], default: -1, effect: 'uniform' },
   bvhBuilder: { type: 'enum', values: ['auto', 'cpu', 'gpu'], default: 'auto', effect: 'schedule' },
   pathsInFlight: { type: 'integer', range: [1, 2 ** 30], effect: 'schedule' },
+  // Films of scenes whose textures it reduces differ by the sizes of their images.
+  memory: { type: 'limits', values: ['budgetMiB'], range: [1, 2 ** 20], effect: 'schedule' },
 } as const satisfies Table;
 
 /** Name of an option, as in {@link RENDER_OPTIONS}. */

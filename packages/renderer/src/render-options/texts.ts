@@ -93,4 +93,9 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     doc: 'Maximum number of paths on the GPU at once, about 150 bytes each. Default: 4194304, or 1048576 without buffers of 2 GiB.',
     softRange: [4096, 4_194_304],
   },
+  memory: {
+    doc: 'GPU memory that textures may take, in MiB. Beyond it they lose their largest levels, those that the image shows least first.',
+    unit: 'MiB',
+    biased: true,
+  },
 };

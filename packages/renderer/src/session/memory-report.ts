@@ -1,3 +1,4 @@
+import type { TextureFit } from '../scene/texture-fit';
 import type { MemoryReport } from '../options';
 import type { GpuMemory } from '../storage/buffers';
 
@@ -22,6 +23,7 @@ export function memoryReport(
     readonly triangles: number;
     readonly pixels: number;
     readonly texels: number;
+    readonly textures: TextureFit;
   },
 ): MemoryReport {
   const parts = Object.fromEntries(
@@ -31,6 +33,8 @@ export function memoryReport(
   const each = (bytes: number, count: number) => (count > 0 ? bytes / count : 0);
   return {
     ...parts,
+    fullTextures: counts.textures.fullBytes ?? parts.textures,
+    reducedTextures: [...counts.textures.reduced.values()],
     other,
     pathsInFlight: counts.pathsInFlight,
     perPath: each(parts.paths, counts.pathsInFlight),

@@ -106,6 +106,13 @@ export class GpuMemory {
     this.#keep(buffer, label, buffer.size);
   }
 
+  /** Runs what makes buffers and textures. @returns What it returns, and those that it has made. */
+  track<T>(make: () => T): [made: T, resources: readonly (GPUBuffer | GPUTexture | PagedArray)[]] {
+    const before = this.#live.size;
+    // In the order in which they were made.
+    return [make(), [...this.#live.keys()].slice(before)];
+  }
+
   /** Destroys one buffer or texture; unknown ones are ignored. */
   release(resource: GPUBuffer | GPUTexture | PagedArray | undefined): void {
     if (!resource) return;
