@@ -42,6 +42,8 @@ function shown(rgba: Float32Array): Float32Array {
 interface Series {
   readonly images: Map<number, Float32Array>;
   readonly milliseconds: number[];
+  /** The film some seconds after the last frame. */
+  rested?: { readonly image: Float32Array; readonly samples: number };
 }
 
 /** Moving images: 120 frames of a few samples, raw and with the frames before, against references. */
@@ -54,6 +56,7 @@ export const benchmark: Benchmark = {
     compared: { type: 'string', help: `frames that are compared; default ${COMPARED.join(',')}; "none": times alone` },
     samples: { type: 'string', help: 'of a frame; default 1' },
     references: { type: 'string', help: 'samples of references; default 256' },
+    rest: { type: 'string', help: 'seconds after the last frame, compared where it is; the film that begins there' },
     images: { type: 'string', help: 'folder that the compared images go to, as PNG' },
   },
   async run({ log, quick, gpu: name, values }) {
@@ -67,6 +70,7 @@ export const benchmark: Benchmark = {
     const samples = Number(values['samples'] ?? 1);
     const referenceSamples = Number(values['references'] ?? (quick ? 4 : 256));
     const last = quick ? 2 : software ? COMPARED[0]! : FRAMES - 1;
+    const restSeconds = Number(values['rest'] ?? 0);
     const asked = values['compared'];
     const compared = quick
       ? [2]
@@ -112,6 +116,8 @@ export const benchmark: Benchmark = {
             if (kept.includes(frame))
               series.images.set(frame, filter && image ? await filter.read(image) : await tracer.read('beauty'));
           }
+          if (restSeconds > 0 && way === 'raw' && kept.includes(last))
+            series.rested = { samples: await renderFor(tracer, restSeconds), image: await tracer.read('beauty') };
           filter?.destroy();
           tracer.destroy();
           made[way] = series;
@@ -146,6 +152,12 @@ export const benchmark: Benchmark = {
               timed(`${title}, ${way}: FLIP from frame to frame beyond that of the references`, '1', flicker),
             );
           figures.push(timed(`${title}, ${way}: frame`, 'ms', made[way].milliseconds));
+          const { rested } = made[way];
+          if (rested) {
+            const after = flipOfSeen(truth.get(last)!, seen(shown(rested.image), width, height)).mean;
+            figures.push(timed(`${title}: FLIP of the film ${restSeconds} s after the movement`, '1', [after]));
+            log(`${title}, ${restSeconds} s of rest: ${rested.samples} samples, FLIP ${after.toFixed(4)}`);
+          }
           details.push({
             scene,
             movement,
@@ -170,6 +182,15 @@ export const benchmark: Benchmark = {
     };
   },
 };
+
+/** Renders a new film for some seconds. Returns its samples a pixel. */
+async function renderFor(tracer: PathTracer, seconds: number): Promise<number> {
+  tracer.reset();
+  const started = performance.now();
+  for await (const { samples } of tracer.render({ samples: 1e6, maxSubmitMs: 16 }))
+    if (performance.now() - started >= 1000 * seconds) return samples;
+  return tracer.samples;
+}
 
 const change = (looks: ReadonlyMap<number, SeenImage>, frame: number) =>
   flipOfSeen(looks.get(frame - 1)!, looks.get(frame)!).mean;

@@ -73,13 +73,16 @@ export const MOVEMENTS: Readonly<Record<string, Movement>> = {
       await tracer.setInstanceTransform(index, moved(scene.instances[index]!.transform, [reach * wave(frame), 0, 0]));
     },
   },
-  // The last instance that emits no light slides back and forth.
+  // The last instance that emits no light slides back and forth, or the only one.
   instance: {
     camera: false,
     instances: true,
     at: (tracer, { scene }, frame) => {
       const light = emitter(scene);
-      const index = scene.instances.findLastIndex((_, i) => i !== light);
+      const index = Math.max(
+        0,
+        scene.instances.findLastIndex((_, i) => i !== light),
+      );
       const { min, max } = sceneBounds(scene);
       const reach = SHIFT * Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
       return tracer.setInstanceTransform(index, moved(scene.instances[index]!.transform, [reach * wave(frame), 0, 0]));

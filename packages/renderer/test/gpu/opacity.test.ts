@@ -1,0 +1,69 @@
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { addQuad, camera, createScene } from '../scenes';
+
+let device: GPUDevice;
+beforeAll(async () => {
+  device = await testDevice();
+});
+afterEach(() => expectNoGpuErrors());
+
+const SIZE = 8;
+
+/** Black quads one behind the other in front of a white environment. */
+async function veils(opacities: readonly number[], samples: number, options: Partial<PathTracerOptions> = {}) {
+  const scene = createScene();
+  opacities.forEach((opacity, i) =>
+    addQuad(scene, 4, -0.5 * i, {
+      name: `veil ${i}`,
+      parameters: { base_color: [0, 0, 0], specular_weight: 0, geometry_opacity: opacity },
+    }),
+  );
+  scene.environment = { type: 'constant', radiance: [1, 1, 1] };
+  const tracer = await PathTracer.create(device, scene, {
+    width: SIZE,
+    height: SIZE,
+    camera,
+    maxDepth: 4,
+    pathsInFlight: 1 << 13,
+    ...options,
+  });
+  for await (const _ of tracer.render({ samples, maxSubmitMs: 2000 }));
+  const pixels = await tracer.read('beauty');
+  tracer.destroy();
+  return Array.from({ length: SIZE * SIZE }, (_, i) => pixels[4 * i]!);
+}
+
+/** Pixels that the quads' diagonal crosses, where samples meet two triangles. */
+const onDiagonal = (i: number) => Math.abs(SIZE - 1 - (i % SIZE) - Math.floor(i / SIZE)) <= 1;
+
+describe('opacity', () => {
+  it('is met exactly by as many samples as its share is a part of', async () => {
+    const pixels = await veils([0.25], 16);
+    for (const [i, value] of pixels.entries()) if (!onDiagonal(i)) expect(value).toBeCloseTo(0.75, 6);
+    // Nowhere far off: two triangles have sequences of their own.
+    for (const value of pixels) expect(Math.abs(value - 0.75)).toBeLessThanOrEqual(0.25);
+  });
+
+  it('of one surface is independent of that of another', async () => {
+    const samples = 64;
+    const pixels = await veils([0.5, 0.5], samples);
+    const mean = pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
+    // Within four standard errors of independent decisions, which these are spread more evenly than.
+    expect(Math.abs(mean - 0.25)).toBeLessThan(4 * Math.sqrt((0.25 * 0.75) / (samples * pixels.length)));
+    // And not the same decision at each pixel: that would leave a half, or nothing.
+    for (const value of pixels) expect(Math.abs(value - 0.25)).toBeLessThan(0.2);
+  });
+
+  it('is decided by other numbers with another seed', async () => {
+    expect(await veils([0.3], 4, { seed: 1 })).not.toEqual(await veils([0.3], 4, { seed: 2 }));
+  });
+
+  it('is met on average by independent samples too', async () => {
+    const samples = 64;
+    const pixels = await veils([0.25], samples, { sampler: 'independent' });
+    const mean = pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
+    expect(Math.abs(mean - 0.75)).toBeLessThan(4 * Math.sqrt((0.25 * 0.75) / (samples * pixels.length)));
+  });
+});
