@@ -17,7 +17,8 @@ export {
   type RedisClient,
 } from './queue/redis';
 export type { FarmStatus, WorkerState } from './queue/status';
-export { FarmWorker, startFarmWorker, type FarmWorkerOptions, type WorkerEvent } from './worker/farm-worker';
+export { FarmWorker, type FarmWorkerOptions, type WorkerEvent } from './worker/farm-worker';
+export { startFarmWorker } from './worker/start-worker';
 export { MAX_TRIES, pauseAfter, verdictOn, type Tries, type Verdict } from './worker/failure-policy';
 export {
   RendererProcess,

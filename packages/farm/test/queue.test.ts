@@ -1,8 +1,9 @@
-import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { findRedis, type RedisProgram } from '@glanz/redis';
 import { describe, expect, it } from 'vitest';
-import { farmMetrics } from '../src/index';
+import { farmMetrics, FolderStore } from '../src/index';
 import { jobOf, temporaryFolder, testFarm } from './farm-on-redis';
 
 const redis = await findRedis();
@@ -82,6 +83,31 @@ describe.skipIf(redis.missing !== undefined)(redis.missing ?? 'a farm on Redis',
     await farm.worker();
     await farm.until('done', async () => (await farm.queue.status()).done === 1);
     expect(farm.log('end')[0]!.split(' ')[2]).not.toBe(first);
+  });
+
+  it('a worker that cannot write its files pauses, and the others take the jobs', async () => {
+    const farm = await testFarm(program);
+    const jobs = ['a', 'b', 'c', 'd', 'e', 'f'].map((label) => jobOf(label));
+    await farm.queue.submit(farm.requests(jobs), farm.store);
+    await farm.worker({
+      renderer: {
+        script: fileURLToPath(new URL('renderer.mjs', import.meta.url)),
+        args: [join(farm.folder, 'log.txt')],
+        env: { TEST_FAIL: 'output' },
+      },
+    });
+    await farm.until('failed', () => farm.events.some(({ type }) => type === 'failed'));
+    await farm.worker();
+    await farm.until('done', async () => (await farm.queue.status()).done === jobs.length);
+    expect(farm.events.filter(({ type }) => type === 'failed').length).toBeLessThan(4);
+    expect((await farm.queue.status()).failed).toBe(0);
+  });
+
+  it('a worker does not start with a store that it cannot write', async () => {
+    const farm = await testFarm(program);
+    writeFileSync(join(farm.folder, 'file'), '');
+    const store = new FolderStore(join(farm.folder, 'file'));
+    await expect(farm.worker({ store })).rejects.toMatchObject({ code: 'farm/store' });
   });
 
   it('a job that ends its process three times is given up, and holds the others up by its tries alone', async () => {
@@ -173,7 +199,7 @@ describe.skipIf(redis.missing !== undefined)(redis.missing ?? 'a farm on Redis',
   });
 
   it('says where Redis is not, and what to install', async () => {
-    const { openFarmQueue, importQueueModules, startFarmWorker, FolderStore } = await import('../src/index');
+    const { openFarmQueue, importQueueModules, startFarmWorker } = await import('../src/index');
     const modules = await importQueueModules();
     await expect(openFarmQueue({ redis: 'redis://:secret@127.0.0.1:1', modules })).rejects.toMatchObject({
       code: 'farm/redis',

@@ -12,7 +12,7 @@ process.on('SIGTERM', () => undefined);
 process.on('message', async (message) => {
   if (message.type === 'stop') return stopped();
   const { job, folder, checkpoint } = message;
-  const { text = '', ms = 0, exit, fail, times = Infinity, block = 0 } = job.payload;
+  const { text = '', ms = 0, exit, fail = process.env.TEST_FAIL, times = Infinity, block = 0 } = job.payload;
   const from = existsSync(checkpoint) ? Number(readFileSync(checkpoint, 'utf8')) : 0;
   appendFileSync(log, `begin ${job.id} ${process.pid} ${from}\n`);
   process.stdout.write(`rendering ${job.label}\n`);

@@ -4,6 +4,7 @@ import { keysOf, type QueueKeys } from './keys';
 import {
   connectRedis,
   importQueueModules,
+  guarded,
   type BullQueue,
   type QueuedJob,
   type QueueModules,
@@ -157,6 +158,7 @@ export class FarmQueue {
     if (!ids) {
       await this.#queue.drain(true);
       removed = before;
+      await this.#forgetAll();
       for (const job of await this.#failed()) await job.remove().then(() => removed++);
     }
     for (const id of active) {
@@ -168,9 +170,25 @@ export class FarmQueue {
         continue;
       }
       await job.remove();
+      await this.#redis.call('DEL', this.keys.destinations(id), this.keys.tries(id));
       removed++;
     }
     return { removed, stopping };
+  }
+
+  /** Deletes what is kept of jobs beside BullMQ's keys: submitted again, they go to their new destinations alone. */
+  async #forgetAll(): Promise<void> {
+    for (const pattern of [this.keys.destinations('*'), this.keys.tries('*')]) {
+      let cursor = '0';
+      do {
+        const [next, keys] = (await this.#redis.call('SCAN', cursor, 'MATCH', pattern, 'COUNT', 1000)) as [
+          string,
+          string[],
+        ];
+        if (keys.length > 0) await this.#redis.call('DEL', ...keys);
+        cursor = next;
+      } while (cursor !== '0');
+    }
   }
 
   async #failed(ids?: readonly string[]): Promise<QueuedJob<FarmJob>[]> {
@@ -238,5 +256,5 @@ export async function openFarmQueue({ redis, name, modules }: FarmQueueOptions):
     skipVersionCheck: true,
   }) as unknown as BullQueue<FarmJob>;
   queue.on('error', () => undefined);
-  return new FarmQueue(queue, client, keys);
+  return new FarmQueue(guarded(queue), guarded(client), keys);
 }

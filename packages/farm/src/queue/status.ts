@@ -9,7 +9,14 @@ export interface WorkerState {
   /** As it was named; empty: the best one. */
   readonly gpu: string;
   /** The job that it is rendering. */
-  readonly job?: { readonly id: string; readonly label: string; readonly samples: number; readonly of: number };
+  readonly job?: {
+    readonly id: string;
+    readonly label: string;
+    readonly samples: number;
+    readonly of: number;
+    /** Since the job began. */
+    readonly seconds?: number;
+  };
   /** Jobs that it has finished. */
   readonly done: number;
   /** Milliseconds since 1970. */
@@ -66,7 +73,7 @@ export async function readStatus(
   const { active = 0, delayed = 0, failed = 0 } = counts;
   const done = number('done');
   const secondsPerJob = done > 0 ? number('milliseconds') / 1000 / done : 0;
-  const left = waiting + delayed + active;
+  const secondsLeft = timeLeft(workers, waiting + delayed, active, secondsPerJob);
   return {
     waiting,
     active,
@@ -78,13 +85,30 @@ export async function readStatus(
       [...total].filter(([name]) => name.startsWith('retry:')).map(([name, count]) => [name.slice(6), Number(count)]),
     ),
     secondsPerJob,
-    ...(left === 0
-      ? { secondsLeft: 0 }
-      : workers.length > 0 && done > 0
-        ? { secondsLeft: (left * secondsPerJob) / workers.length }
-        : {}),
+    ...(secondsLeft === undefined ? {} : { secondsLeft }),
     workers: workers.sort((a, b) => (a.id < b.id ? -1 : 1)),
   };
+}
+
+/**
+ * Seconds until the queue is empty: of the jobs that are rendered by their progress, of the others by the mean of all;
+ * `undefined` where neither is known.
+ */
+function timeLeft(
+  workers: readonly WorkerState[],
+  waiting: number,
+  active: number,
+  secondsPerJob: number,
+): number | undefined {
+  if (waiting + active === 0) return 0;
+  if (workers.length === 0) return undefined;
+  const running = workers.flatMap(({ job }) => (job ? [job] : []));
+  const left = running.map(({ samples, of, seconds = 0 }) =>
+    samples > 0 ? (seconds * (of - samples)) / samples : secondsPerJob,
+  );
+  if (secondsPerJob === 0 && (waiting > 0 || left.includes(0))) return undefined;
+  const all = left.reduce((sum, one) => sum + one, waiting * secondsPerJob);
+  return Math.max(all / workers.length, ...left);
 }
 
 /** A hash as RESP2 gives it, names and values in turn. RESP3 gives an object. */

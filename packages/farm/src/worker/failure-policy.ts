@@ -5,7 +5,7 @@ export type Tries = Readonly<Partial<Record<RenderFailure['kind'], number>>>;
 
 /** What becomes of a job that has failed. */
 export type Verdict =
-  /** To the next worker, at once; this one pauses first if its GPU was lost. */
+  /** To the next worker, at once. */
   | { readonly type: 'elsewhere' }
   | { readonly type: 'later'; readonly delayMs: number }
   /** To the list of dead letters. */
@@ -43,5 +43,9 @@ export function verdictOn(kind: RenderFailure['kind'], tries: Tries): Verdict {
   return { type: 'later', delayMs: Math.min(FIRST_DELAY_MS * 2 ** (count - 1), MAX_DELAY_MS) };
 }
 
-/** How long a worker whose GPU was lost takes no job. @param losses Without a job in between. */
-export const pauseAfter = (losses: number): number => Math.min(1000 * 2 ** (losses - 1), 60_000);
+/**
+ * How long a worker takes no job after it has lost its GPU, or could not write its files.
+ *
+ * @param failures Without a finished job in between.
+ */
+export const pauseAfter = (failures: number): number => Math.min(1000 * 2 ** (failures - 1), 60_000);

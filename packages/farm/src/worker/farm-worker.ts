@@ -4,22 +4,14 @@ import { hostname } from 'node:os';
 import { FarmError } from '../error';
 import type { Destination, FarmJob, JobResult } from '../job';
 import { jobOptions, type FarmQueueOptions } from '../queue/farm-queue';
-import { keysOf, type QueueKeys } from '../queue/keys';
-import {
-  connectRedis,
-  importQueueModules,
-  type BullQueue,
-  type BullWorker,
-  type QueuedJob,
-  type QueueModules,
-  type RedisClient,
-} from '../queue/redis';
+import type { QueueKeys } from '../queue/keys';
+import type { BullQueue, BullWorker, QueuedJob, RedisClient } from '../queue/redis';
 import type { WorkerState } from '../queue/status';
 import type { FarmStore } from '../store/store';
 import { pauseAfter, verdictOn, type Tries } from './failure-policy';
 import { RenderFailure, RendererProcess, type RenderEnd, type RendererProcessOptions } from './renderer-process';
 
-/** Options of {@link startFarmWorker}. */
+/** Options of `startFarmWorker()`. */
 export interface FarmWorkerOptions extends FarmQueueOptions {
   readonly store: FarmStore;
   readonly renderer: RendererProcessOptions;
@@ -38,6 +30,8 @@ export interface FarmWorkerOptions extends FarmQueueOptions {
   readonly lockMs?: number | undefined;
   /** Milliseconds that Redis may take to answer at the start. Afterwards commands wait for it. Default: 20 s. */
   readonly connectMs?: number | undefined;
+  /** Milliseconds that `drain()` waits for a Redis that does not answer, after its last answer. Default: 10 s. */
+  readonly leaveMs?: number | undefined;
   /** Milliseconds between heartbeats. Default: 5 s. */
   readonly beatMs?: number | undefined;
   /** Called with each event, for logs. */
@@ -63,11 +57,14 @@ class Moved extends Error {
 
 const LOCK_MS = 30_000;
 const BEAT_MS = 5_000;
-const CONNECT_MS = 20_000;
-const CONNECT_PAUSE_MS = 500;
 /** How many workers may end while they have a job: it does not cause the end of a machine that is switched off. */
 const MAX_STALLS = 20;
 const RECENT = 200;
+/** How long a worker that ends waits for a Redis that does not answer. */
+const LEAVE_MS = 10_000;
+const LOOK_MS = 250;
+
+const pause = (ms: number) => new Promise<void>((done) => setTimeout(done, ms));
 
 /** The worker of one GPU: takes a job, renders it in a process of its own, stores the result, takes the next. */
 export class FarmWorker {
@@ -77,21 +74,33 @@ export class FarmWorker {
   readonly #redis: RedisClient;
   readonly #queue: BullQueue<FarmJob>;
   readonly #renderer: RendererProcess;
+  /** Connections that BullMQ has made, which it cannot end while Redis is away. */
+  readonly #waiting: RedisClient[] = [];
   #bull: BullWorker | undefined;
   #beat: NodeJS.Timeout | undefined;
   #beating = false;
-  #current: { job: FarmJob; samples: number; of: number; cancelled: boolean } | undefined;
+  /** When Redis has answered last. */
+  #answered = Date.now();
+  /** Whether a job is rendered, or its files are stored, for which Redis is not needed. */
+  #storing = false;
+  #current: { job: FarmJob; samples: number; of: number; cancelled: boolean; start: number } | undefined;
   #done = 0;
-  #losses = 0;
+  #failures = 0;
   #draining = false;
   #pause: NodeJS.Timeout | undefined;
 
-  /** See {@link startFarmWorker}. */
+  /** See `startFarmWorker()`. */
   constructor(options: FarmWorkerOptions, keys: QueueKeys, redis: RedisClient, queue: BullQueue<FarmJob>) {
     this.#options = options;
     this.#keys = keys;
     this.#redis = redis;
     this.#queue = queue;
+    const duplicate = redis.duplicate.bind(redis);
+    redis.duplicate = (...given) => {
+      const made = duplicate(...given);
+      this.#waiting.push(made);
+      return made;
+    };
     this.#renderer = new RendererProcess(options.renderer);
   }
 
@@ -122,25 +131,50 @@ export class FarmWorker {
     return Object.values(counts).reduce((sum, count) => sum + count, 0);
   }
 
-  /** Takes no more jobs, returns the current one to the queue with its samples so far, and ends. */
+  /**
+   * Takes no more jobs, returns the current one to the queue with its samples so far, and ends. If Redis does not answer
+   * meanwhile, the worker ends without it (`leaveMs`): the samples are in the store, and the job
+   * goes to another worker when the lock has expired.
+   */
   async drain(): Promise<void> {
     this.#draining = true;
     clearTimeout(this.#pause);
+    const { beatMs = BEAT_MS, leaveMs = LEAVE_MS, onEvent } = this.#options;
+    const patience = Math.max(leaveMs, 2 * beatMs);
+    const left = this.#leave().then(
+      () => true,
+      () => true,
+    );
+    while (!(await Promise.race([left, pause(LOOK_MS).then(() => false)]))) {
+      if (this.#storing || Date.now() - this.#answered <= patience) continue;
+      onEvent?.({
+        type: 'redis',
+        message: 'no answer; an unfinished job goes to another worker when its lock expires',
+      });
+      break;
+    }
+    clearInterval(this.#beat);
+    this.#renderer.kill();
+    for (const connection of [...this.#waiting, this.#redis]) connection.disconnect();
+    // While Redis is away BullMQ does not come to the end of close(), and its timer would keep the process alive.
+    void this.#bull?.lockManager?.close();
+  }
+
+  async #leave(): Promise<void> {
     await this.#bull?.pause(true);
     if (this.#current) this.#renderer.stop();
     await this.#bull?.close();
     clearInterval(this.#beat);
-    this.#renderer.kill();
     await this.#redis.call('HDEL', this.#keys.workers, this.id);
     await this.#queue.close().catch(() => undefined);
-    this.#redis.disconnect();
   }
 
   async #process(queued: QueuedJob<FarmJob>, token: string | undefined): Promise<unknown> {
     const { store, onEvent } = this.#options;
     const job = queued.data;
-    this.#current = { job, samples: 0, of: 0, cancelled: false };
     const start = performance.now();
+    this.#current = { job, samples: 0, of: 0, cancelled: false, start };
+    this.#storing = true;
     try {
       const there = await store.result(job.id);
       if (there) return await this.#finished(job, there, false);
@@ -174,10 +208,13 @@ export class FarmWorker {
       }
       if (this.#current.cancelled) {
         await store.dropCheckpoint(job.id);
+        this.#storing = false;
+        await this.#redis.call('DEL', this.#keys.tries(job.id), this.#keys.destinations(job.id));
         onEvent?.({ type: 'cancelled', job });
         return 'cancelled';
       }
       await store.keepCheckpoint(job.id);
+      this.#storing = false;
       onEvent?.({ type: 'given-back', job });
       await queued.moveToWait(token);
       throw new Moved('WaitingError');
@@ -203,6 +240,7 @@ export class FarmWorker {
 
   async #finished(job: FarmJob, result: JobResult, first: boolean): Promise<string> {
     const { store, outputRoot, onEvent } = this.#options;
+    this.#storing = false;
     if (job.merge) {
       const parts = await Promise.all((job.merge.parts ?? []).map((id) => store.result(id)));
       // The last parts may end at the same time: the queue takes the merge once.
@@ -221,7 +259,7 @@ export class FarmWorker {
     await this.#redis.call('HINCRBY', this.#keys.totals, 'milliseconds', Math.round(1000 * result.seconds));
     await this.#redis.call('HINCRBY', this.#keys.totals, 'done', 1);
     this.#done++;
-    this.#losses = 0;
+    this.#failures = 0;
     onEvent?.({ type: 'done', job, result, first });
     return 'done';
   }
@@ -232,6 +270,7 @@ export class FarmWorker {
     const { kind, code, message } = failure;
     // Another worker may continue from there; without them it begins again.
     await store.keepCheckpoint(job.id).catch(() => undefined);
+    this.#storing = false;
     const tried = Number(await this.#redis.call('HINCRBY', this.#keys.tries(job.id), kind, 1));
     const verdict = verdictOn(kind, { [kind]: tried } satisfies Tries);
     await queued.log(`${new Date().toISOString()} ${this.id}: ${message} [${code}]`);
@@ -240,24 +279,27 @@ export class FarmWorker {
     onEvent?.({ type: 'failed', job, failure, next });
     if (verdict.type === 'dead') throw new Moved('UnrecoverableError', `${message} [${code}] (${verdict.why})`);
     await this.#redis.call('HINCRBY', this.#keys.totals, `retry:${kind}`, 1);
+    // Other workers take the jobs of one whose GPU or files fail, and a new process requests the device.
+    if (kind === 'gpu') this.#renderer.kill();
+    // For longer than the job waits, so that another one gets it.
+    if (kind === 'gpu' || kind === 'output') await this.#rest(verdict.type === 'later' ? 2 * verdict.delayMs : 0);
     if (verdict.type === 'later') {
       await queued.moveToDelayed(Date.now() + verdict.delayMs, token);
       throw new Moved('DelayedError');
     }
-    if (kind === 'gpu') await this.#pauseAfterLoss();
     await queued.moveToWait(token);
     throw new Moved('WaitingError');
   }
 
-  /** After the loss of the GPU other workers take the job, and a new process requests the device. */
-  async #pauseAfterLoss(): Promise<void> {
-    this.#renderer.kill();
+  /** Takes no job for a while, the longer the more have failed one after another. @param minMs Milliseconds at least. */
+  async #rest(minMs: number): Promise<void> {
     await this.#bull?.pause(true);
+    clearTimeout(this.#pause);
     this.#pause = setTimeout(
       () => {
         if (!this.#draining) this.#bull?.resume();
       },
-      pauseAfter(++this.#losses),
+      Math.max(minMs, pauseAfter(++this.#failures)),
     );
   }
 
@@ -273,7 +315,15 @@ export class FarmWorker {
       pid: process.pid,
       gpu,
       ...(current
-        ? { job: { id: current.job.id, label: current.job.label, samples: current.samples, of: current.of } }
+        ? {
+            job: {
+              id: current.job.id,
+              label: current.job.label,
+              samples: current.samples,
+              of: current.of,
+              seconds: (performance.now() - current.start) / 1000,
+            },
+          }
         : {}),
       done: this.#done,
       beat: Date.now(),
@@ -281,6 +331,7 @@ export class FarmWorker {
     };
     try {
       await this.#redis.call('HSET', this.#keys.workers, this.id, JSON.stringify(state));
+      this.#answered = Date.now();
       if (current && Number(await this.#redis.call('SREM', this.#keys.cancelled, current.job.id)) === 1) {
         current.cancelled = true;
         this.#renderer.stop();
@@ -299,39 +350,4 @@ function failureOf(error: unknown): RenderFailure {
   const { message = String(error), code } = error as NodeJS.ErrnoException;
   // Calls of the file system.
   return new RenderFailure(typeof code === 'string' ? 'output' : 'other', 'farm/store', message);
-}
-
-/** A Redis that restarts takes a few seconds. @throws {FarmError} `farm/redis` for one that does not answer at all */
-async function untilRedisAnswers(
-  modules: QueueModules,
-  { redis, connectMs = CONNECT_MS }: FarmWorkerOptions,
-): Promise<void> {
-  for (const end = Date.now() + connectMs; ; await new Promise((done) => setTimeout(done, CONNECT_PAUSE_MS))) {
-    try {
-      (await connectRedis(modules, redis, false)).disconnect();
-      return;
-    } catch (error) {
-      if (!(error instanceof FarmError) || error.code !== 'farm/redis' || Date.now() >= end) throw error;
-    }
-  }
-}
-
-/**
- * Starts a worker, which runs until it is drained. It reconnects when the connection to Redis is lost.
- *
- * @throws {FarmError} `farm/missing-package`, `farm/redis`, `farm/option`
- */
-export async function startFarmWorker(options: FarmWorkerOptions): Promise<FarmWorker> {
-  const modules = options.modules ?? (await importQueueModules());
-  await untilRedisAnswers(modules, options);
-  await options.store.sweep();
-  const keys = keysOf(options.name);
-  const report = (error: Error) => options.onEvent?.({ type: 'redis', message: error.message });
-  const redis = await connectRedis(modules, options.redis, true, report);
-  const settings = { connection: redis, prefix: keys.prefix, skipVersionCheck: true };
-  const queue = new modules.Queue(keys.queue, settings) as unknown as BullQueue<FarmJob>;
-  queue.on('error', report);
-  const worker = new FarmWorker(options, keys, redis, queue);
-  worker.start((processor, more) => new modules.Worker(keys.queue, processor as never, { ...settings, ...more }));
-  return worker;
 }

@@ -69,9 +69,12 @@ export async function workCommand(
         }),
       );
     progress.line(`${workers.length === 1 ? 'a worker is' : `${workers.length} workers are`} ready`);
+    // While Redis is away, nobody knows what is left.
+    const aborted = new Promise<void>((done) => stop.signal.addEventListener('abort', () => done()));
+    const left = async () => (untilEmpty ? Promise.race([(workers[0] as FarmWorker).left(), aborted]) : undefined);
     for (let empty = 0; !stop.signal.aborted && empty < 2;) {
       await io.wait(LOOK_MS, stop.signal);
-      empty = untilEmpty && !stop.signal.aborted && (await (workers[0] as FarmWorker).left()) === 0 ? empty + 1 : 0;
+      empty = !stop.signal.aborted && (await left()) === 0 ? empty + 1 : 0;
     }
   } finally {
     await Promise.all(workers.map((worker) => worker.drain()));
