@@ -1,35 +1,13 @@
 import { expect, test, type Page } from '@playwright/test';
 import { triangle } from '@glanz/browser/files';
-import {
-  checkAccessibility,
-  dataOf,
-  drop,
-  finished,
-  imageOf,
-  open,
-  restarting,
-  servePlayground,
-  tab,
-  watch,
-} from './page';
+import { checkAccessibility, dataOf, drop, finished, imageOf, onePage, restarting, tab } from './page';
 
 let page: Page;
-let close: () => Promise<void> = async () => undefined;
-let complaints: string[] = [];
 
-test.beforeAll(async ({ browser }) => {
-  const served = await servePlayground();
-  close = served.close;
-  page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
-  complaints = watch(page, served.origin);
-  await open(page, `${served.origin}/?model=cornell-box&scale=0.125&samples=1&max-depth=2`);
+onePage({ width: 1440, height: 900 }, 'model=cornell-box&scale=0.125&samples=1&max-depth=2', async (opened) => {
+  page = opened;
   await expect(page.locator('#parts')).not.toHaveClass(/nested/);
   await show('boat.glb', boat());
-});
-test.afterEach(() => expect(complaints).toEqual([]));
-test.afterAll(async () => {
-  await page.close();
-  await close();
 });
 
 async function show(name: string, bytes: Buffer): Promise<void> {

@@ -1,24 +1,15 @@
 import { readFileSync } from 'node:fs';
 import { triangle, type Pixels } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { dataOf, drop, finished, imageOf, open, photograph, restarting, save, servePlayground, watch } from './page';
+import { dataOf, drop, finished, imageOf, onePage, photograph, restarting, save } from './page';
 
 let page: Page;
-let close: () => Promise<void> = async () => undefined;
-let complaints: string[] = [];
 
-test.beforeAll(async ({ browser }) => {
-  const served = await servePlayground();
-  close = served.close;
-  page = await browser.newPage({ viewport: { width: 1200, height: 700 } });
-  complaints = watch(page, served.origin);
-  await open(page, `${served.origin}/?model=cornell-box&scale=0.125&samples=8&max-depth=2`);
-});
-test.afterEach(() => expect(complaints).toEqual([]));
-test.afterAll(async () => {
-  await page.close();
-  await close();
-});
+onePage(
+  { width: 1200, height: 700 },
+  'model=cornell-box&scale=0.125&samples=8&max-depth=2',
+  (opened) => void (page = opened),
+);
 
 async function show(name: string, bytes: Buffer): Promise<Pixels> {
   await drop(page, [{ name, bytes }]);

@@ -1,6 +1,6 @@
 import { fileURLToPath } from 'node:url';
-import { photograph as photographAll, serveApp, type Pixels, type Served } from '@glanz/browser';
-import { expect, type Download, type Locator, type Page } from '@playwright/test';
+import { photograph as photographAll, serveApp, watch, type Pixels, type Served } from '@glanz/browser';
+import { expect, test, type Download, type Locator, type Page } from '@playwright/test';
 
 export { checkAccessibility, pixelsOf, watch } from '@glanz/browser';
 
@@ -54,6 +54,36 @@ export async function open(page: Page, address: string): Promise<void> {
       : 'a scene';
   await expect.poll(shown, { message: 'a scene is shown' }).toBe('a scene');
   await expect(page.locator('body')).toHaveAttribute('data-panels', 'ready');
+}
+
+/**
+ * One page for all tests of a file. It is opened before the first one and closed after the last one; what the browser
+ * complains of fails the test in which it does.
+ *
+ * @param query What follows the `?` of the address.
+ * @param ready Gets the page with its scene and controls.
+ */
+export function onePage(
+  viewport: { readonly width: number; readonly height: number },
+  query: string,
+  ready: (page: Page) => Promise<void> | void,
+): void {
+  let page: Page;
+  let close: () => Promise<void> = async () => undefined;
+  let complaints: readonly string[] = [];
+  test.beforeAll(async ({ browser }) => {
+    const served = await servePlayground();
+    close = served.close;
+    page = await browser.newPage({ viewport });
+    complaints = watch(page, served.origin);
+    await open(page, `${served.origin}/?${query}`);
+    await ready(page);
+  });
+  test.afterEach(() => expect(complaints).toEqual([]));
+  test.afterAll(async () => {
+    await page.close();
+    await close();
+  });
 }
 
 /**

@@ -1,23 +1,12 @@
 import { expect, test, type Page } from '@playwright/test';
-import { checkAccessibility, finished, imageOf, open, restarting, servePlayground, tab, watch } from './page';
+import { checkAccessibility, finished, imageOf, onePage, restarting, tab } from './page';
 
 /** One page for all; each test leaves nothing chosen that the next one minds, and no edits. */
 let page: Page;
-let close: () => Promise<void> = async () => undefined;
-let complaints: string[] = [];
 
-test.beforeAll(async ({ browser }) => {
-  const served = await servePlayground();
-  close = served.close;
-  page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
-  complaints = watch(page, served.origin);
-  await open(page, `${served.origin}/?model=cornell-box&scale=0.125&samples=1&max-depth=2`);
+onePage({ width: 1440, height: 900 }, 'model=cornell-box&scale=0.125&samples=1&max-depth=2', async (opened) => {
+  page = opened;
   await finished(page);
-});
-test.afterEach(() => expect(complaints).toEqual([]));
-test.afterAll(async () => {
-  await page.close();
-  await close();
 });
 
 const part = (name: string) => page.locator('#parts').getByRole('button', { name, exact: true });

@@ -5,31 +5,20 @@ import {
   drop,
   finished,
   imageOf,
+  onePage,
   open,
   overlap,
   photograph,
   restarting,
-  servePlayground,
   watch,
 } from './page';
 
 /** One page for all: each test leaves the model, and closes what it opened. */
 let page: Page;
-let close: () => Promise<void> = async () => undefined;
-let complaints: string[] = [];
 
-test.beforeAll(async ({ browser }) => {
-  const served = await servePlayground();
-  close = served.close;
-  page = await browser.newPage({ viewport: { width: 900, height: 560 } });
-  complaints = watch(page, served.origin);
-  await open(page, `${served.origin}/?model=cornell-box&scale=0.125&samples=1&max-depth=2`);
+onePage({ width: 900, height: 560 }, 'model=cornell-box&scale=0.125&samples=1&max-depth=2', async (opened) => {
+  page = opened;
   await finished(page);
-});
-test.afterEach(() => expect(complaints).toEqual([]));
-test.afterAll(async () => {
-  await page.close();
-  await close();
 });
 
 const SIZES = [

@@ -1,30 +1,19 @@
 import { readFileSync } from 'node:fs';
 import { animatedQuads } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { checkAccessibility, dataOf, drop, errorWith, finished, open, servePlayground, tab, watch } from './page';
+import { checkAccessibility, dataOf, drop, errorWith, finished, onePage, tab } from './page';
 
 /** One page for all, with a model of two squares that change places in 0.2 s, on a colour. */
 let page: Page;
-let close: () => Promise<void> = async () => undefined;
-let complaints: string[] = [];
 
-test.beforeAll(async ({ browser }) => {
-  const served = await servePlayground();
-  close = served.close;
-  page = await browser.newPage({ viewport: { width: 900, height: 560 } });
-  complaints = watch(page, served.origin);
-  await open(page, `${served.origin}/?model=cornell-box&scale=0.125&samples=2&max-depth=2`);
+onePage({ width: 900, height: 560 }, 'model=cornell-box&scale=0.125&samples=2&max-depth=2', async (opened) => {
+  page = opened;
   await drop(page, [{ name: 'quads.glb', bytes: animatedQuads }]);
   await expect.poll(() => dataOf(page, 'scene')).toBe('quads.glb');
   await tab(page, 'Light');
   await page.locator('#background').selectOption('color');
   await page.locator('#environment').selectOption('constant');
   await finished(page);
-});
-test.afterEach(() => expect(complaints).toEqual([]));
-test.afterAll(async () => {
-  await page.close();
-  await close();
 });
 
 interface Settings {

@@ -86,7 +86,7 @@ function databaseOf(url: string): number {
       'farm/option',
       `The address of Redis must be like redis://127.0.0.1:6379, or redis://127.0.0.1:6379/2 for its database 2, not "${shownAddress(url)}".`,
     );
-  if (/^unix:/.test(url)) return 0;
+  if (url.startsWith('unix:')) return 0;
   if (!/^rediss?:\/\//.test(url)) throw wrong();
   let path: string;
   try {
