@@ -48,8 +48,8 @@ const BUDGETS = [
 /** Files that pages take as they are: kB, gzipped. */
 // 228 before the renderer chose where hierarchies are built; what builds them on the GPU lies beside the file.
 // 229 before animations, a ground and an interaction prompt, whose code lies beside it too; 231 before guides, likewise; 231.5
-// before volumes of glTF scatter; 232.7 before a budget for textures, whose code lies beside it.
-const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 233 }];
+// before volumes of glTF scatter; 232.7 before budgets for textures and images, whose code lies beside it.
+const FILES = [{ specifier: '@glanz/element', file: 'dist/glanz-viewer.min.js', limit: 233.4 }];
 
 const kB = (bytes) => (bytes / 1000).toFixed(2);
 

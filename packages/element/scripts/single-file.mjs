@@ -45,6 +45,7 @@ const LATER = {
   './session/guide-training': 'glanz-viewer.guide.min.js',
   './film-kernels': 'glanz-viewer.film-kernels.min.js',
   './fit-textures': 'glanz-viewer.fit-textures.min.js',
+  './fit-images': 'glanz-viewer.fit-images.min.js',
 };
 
 /** Where the modules of the sources among them are, from the viewer's folder. */
@@ -64,6 +65,7 @@ const SOURCES = {
   './session/guide-training': '../renderer/src/session/guide-training',
   './film-kernels': '../renderer/src/integrator/film-kernels',
   './fit-textures': '../renderer/src/scene/fit-textures',
+  './fit-images': '../gltf/src/fit-images',
 };
 
 const pick = (...modules) => Object.fromEntries(modules.map((module) => [module, LATER[module]]));
@@ -151,7 +153,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|paged\/pages|paged-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|fit-images|paged\/pages|paged-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

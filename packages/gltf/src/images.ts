@@ -9,9 +9,11 @@ import {
   type WrapMode,
 } from '@glanz/scene';
 import { namedImage } from './browser-images';
-import { convertImage, type DerivedImage } from './convert-image';
+import type { DerivedImage } from './convert-image';
 import { readUri } from './document';
 import { GltfError } from './error';
+import type { FittedImage } from './fit-images';
+import type { HeldImages } from './held-images';
 import type { GltfImage, GltfJson, GltfTexture } from './json';
 import type { Budget } from './limits';
 import { imageSize } from './image-header';
@@ -48,6 +50,8 @@ export class TextureTable {
   readonly #textureOf = new Map<string, number>();
   readonly #images: SceneImage[] = [];
   readonly #places = new Map<string, number>();
+  /** Images of the document that are read as sRGB. */
+  readonly #colors = new Set<number | undefined>();
   readonly #json: GltfJson;
   readonly #source: Source;
   readonly #warnings: SceneWarning[];
@@ -76,6 +80,7 @@ export class TextureTable {
   get(index: number, colorSpace: 'srgb' | 'linear', path: string): number | undefined {
     return this.#once(`${index} ${colorSpace}`, () => {
       const image = this.#imageOf(index, path);
+      if (colorSpace === 'srgb') this.#colors.add(image);
       return image === undefined ? undefined : this.#add(index, colorSpace, this.#place(String(image), { image }));
     });
   }
@@ -93,6 +98,7 @@ export class TextureTable {
     if (!first) return undefined;
     return this.#once(`${first.index} ${colorSpace} ${key} ${sources.map(({ index }) => index)}`, () => {
       const images = sources.map(({ index }) => this.#imageOf(index, path));
+      if (colorSpace === 'srgb') images.forEach((image) => this.#colors.add(image));
       if (images.every((image) => image === undefined)) return undefined;
       return this.#add(
         first.index,
@@ -160,7 +166,7 @@ export class TextureTable {
   }
 
   /**
-   * Reads and decodes one of the document's images; undefined, with a warning, for one that cannot be decoded.
+   * Reads, decodes and holds one of the document's images; undefined, with a warning, for one that cannot be decoded.
    * @throws {GltfError} as {@link readImages}.
    */
   async readImage(
@@ -168,8 +174,9 @@ export class TextureTable {
     decode: ImageDecoder,
     viewBytes: (index: number) => Uint8Array<ArrayBuffer>,
     budget: Budget,
+    held: HeldImages,
     signal: AbortSignal | undefined,
-  ): Promise<DecodedImage | undefined> {
+  ): Promise<FittedImage | undefined> {
     signal?.throwIfAborted();
     const image = this.#json.images?.[index] as GltfImage;
     const bytes =
@@ -192,13 +199,17 @@ export class TextureTable {
       // Before a decoder allocates anything.
       const declaredSize = imageSize(bytes, type);
       if (declaredSize) budget.take(4 * declaredSize.width * declaredSize.height, `/images/${index}`);
-      const decoded =
-        type === 'image/ktx2'
-          ? await (this.#ktx2 as Ktx2Decoder)(bytes, await this.#formats())
-          : await decode(bytes, type);
-      if (!declaredSize) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
-      return decoded;
+      return await held.decode(declaredSize ? 4 * declaredSize.width * declaredSize.height : 0, async () => {
+        signal?.throwIfAborted();
+        const decoded =
+          type === 'image/ktx2'
+            ? await (this.#ktx2 as Ktx2Decoder)(bytes, await this.#formats())
+            : await decode(bytes, type);
+        if (!declaredSize) budget.take(4 * decoded.width * decoded.height, `/images/${index}`);
+        return held.hold(decoded, this.#colors.has(index) ? 'srgb' : 'linear');
+      });
     } catch (error) {
+      signal?.throwIfAborted();
       // Other codes report that a decoder could not be started: this is not the image's fault.
       if (error instanceof GlanzError && error.code !== 'gltf/ktx2') throw error;
       this.#notes.set(index, {
@@ -215,19 +226,22 @@ export class TextureTable {
    * with a warning.
    * @param viewBytes Returns the bytes of a buffer view.
    * @param budget Charged with the bytes of each image.
-   * @throws {GltfError} `gltf/missing-resource` for a file that does not exist.
+   * @param held Holds what was decoded.
+   * @throws {GltfError} `gltf/missing-resource` for a file that does not exist, `gltf/too-large` for images that cannot be
+   * held.
    */
   async readImages(
     decode: ImageDecoder,
     viewBytes: (index: number) => Uint8Array<ArrayBuffer>,
     budget: Budget,
+    held: HeldImages,
     signal: AbortSignal | undefined,
     onImage: () => void,
   ): Promise<Image[]> {
-    const read = (index: number) => this.readImage(index, decode, viewBytes, budget, signal);
+    const read = (index: number) => this.readImage(index, decode, viewBytes, budget, held, signal);
     const shown = this.shownImages;
     // The first reads start synchronously, so that decoders work on their own threads while geometry is read here.
-    const decoding = new Map<number, Promise<DecodedImage | undefined>>();
+    const decoding = new Map<number, Promise<FittedImage | undefined>>();
     for (const [at, index] of shown.entries()) {
       const before = decoding.get(shown[at - MAX_CONCURRENT] ?? -1);
       // An error rejects the image's own promise only; the next image is still read.
@@ -240,22 +254,26 @@ export class TextureTable {
       promise.catch(() => undefined);
       decoding.set(index, promise);
     }
-    const images: Image[] = [];
+    const images: { readonly name: string; readonly of: Pick<FittedImage, 'image'> }[] = [];
     for (const entry of this.#images) {
       if ('image' in entry) {
         const decoded = await decoding.get(entry.image);
         if (!decoded) this.failed.add(images.length);
-        images.push(namedImage(this.#nameOf(entry.image), decoded ?? white()));
+        images.push({ name: this.#nameOf(entry.image), of: decoded ?? { image: white() } });
       } else {
         const sources: DecodedImage[] = [];
         for (const index of entry.sources)
-          sources.push((index === undefined ? undefined : await decoding.get(index)) ?? white());
+          sources.push((index === undefined ? undefined : await decoding.get(index))?.image ?? white());
         const name = entry.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
-        images.push({ name, ...(await convertImage(sources, entry.derived, signal)) });
+        const { derived } = entry;
+        // Few documents need it.
+        const { convertImage } = await import('./convert-image');
+        images.push({ name, of: await held.hold(await convertImage(sources, derived, signal), derived.colorSpace) });
       }
       onImage();
     }
-    return images;
+    // Each may have lost levels for the sake of those after it.
+    return images.map(({ name, of }) => namedImage(name, of.image));
   }
 
   /** The document's images that materials use. */

@@ -8,8 +8,8 @@ export interface GltfLimits {
    */
   readonly geometryBytes?: number | undefined;
   /**
-   * Max bytes of decoded images (4 per pixel), all together. Default 512 MiB plus 512 for each byte of the file, max
-   * 4 GiB.
+   * Max bytes of decoded images (4 per pixel), all together, as the file has them: `imageBudgetMiB` says how much of them
+   * is held. Default 512 MiB plus 512 for each byte of the file, max 64 GiB.
    */
   readonly imageBytes?: number | undefined;
   /** Max instances. Default 1,048,576. */
@@ -20,7 +20,7 @@ export interface GltfLimits {
 
 export const DEFAULT_LIMITS = {
   geometryBytes: 2 ** 32,
-  imageBytes: 2 ** 32,
+  imageBytes: 2 ** 36,
   instances: 2 ** 20,
   fileBytes: 2 ** 32,
 } as const;

@@ -9,6 +9,7 @@ import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
 import { GltfError, oneLine } from './error';
 import { environmentOf, facesOf } from './image-light';
+import { HeldImages } from './held-images';
 import { TextureTable } from './images';
 import type { CompressedFormats, DecodedImage, ImageDecoder } from './decoded-image';
 import type { GltfAnimation, GltfJson, GltfMaterial } from './json';
@@ -60,6 +61,14 @@ export interface GltfOptions {
    * Default false.
    */
   readonly partNodes?: boolean | undefined;
+  /**
+   * MiB of decoded images that are held at a time, without the smaller levels that a renderer adds. Default 4096. Where
+   * the document has more, the largest images lose their largest levels as they are decoded: width and height are
+   * halved by the mean of 2 × 2 texels, of colours in linear light; compressed images lose stored levels and stay
+   * compressed. The warning `gltf/image-budget` has the numbers. Images are decoded 512 MiB at a time, a larger one
+   * alone.
+   */
+  readonly imageBudgetMiB?: number | undefined;
   /** Limits on memory, instances and file size. */
   readonly limits?: GltfLimits | undefined;
 }
@@ -125,7 +134,8 @@ export async function buildScene(
   let done = 0;
   // Decoders run on their own threads while geometry is read here.
   const imageBytes = new Budget(source.name, 'imageBytes', options.limits, reader.bytes);
-  const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, signal, () =>
+  const held = new HeldImages(source.name, (options.imageBudgetMiB ?? 4096) * 2 ** 20, signal);
+  const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, held, signal, () =>
     onProgress?.({ stage: 'images', done: ++done / table.imageCount }),
   );
   images.catch(() => undefined);
@@ -137,10 +147,13 @@ export async function buildScene(
     await (await import('./draco-ahead')).unpackAhead(json, shown, reader, dracoWorkers);
     signal?.throwIfAborted();
   }
+  // Faces of an environment are read at their full size.
+  const faces = new HeldImages(source.name, Infinity, signal);
   const environmentRead = readEnvironment(
     json,
     shown,
-    (index) => table.readImage(index, options.decodeImage, reader.viewBytes, imageBytes, signal),
+    async (index) =>
+      (await table.readImage(index, options.decodeImage, reader.viewBytes, imageBytes, faces, signal))?.image,
     signal,
   );
   environmentRead.catch(() => undefined);
@@ -184,6 +197,7 @@ export async function buildScene(
   const environment = await environmentRead;
   if (environment) scene.environment = environment;
   scene.warnings.push(...table.imageWarnings);
+  if (held.warning) scene.warnings.push(held.warning);
   scene.textures = table.textures;
   for (const { textures } of scene.materials) {
     for (const [parameter, binding] of Object.entries(textures ?? {})) {

@@ -10,7 +10,16 @@ export { received as receivedScene, type SentScene } from './protocol';
 /** Options for a load in a worker. */
 export interface WorkerLoad extends Pick<
   LoadGltfOptions,
-  'signal' | 'onProgress' | 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits' | 'baseUrl' | 'credentials'
+  | 'signal'
+  | 'onProgress'
+  | 'allowEmpty'
+  | 'scene'
+  | 'animation'
+  | 'time'
+  | 'imageBudgetMiB'
+  | 'limits'
+  | 'baseUrl'
+  | 'credentials'
 > {
   /** As for `loadGltf`, but a list; for worker files that have a KTX2 decoder. */
   readonly compressedFormats?: readonly CompressedFormat[] | undefined;
@@ -109,7 +118,7 @@ export class GltfWorker {
    */
   load(input: GltfInput, options: WorkerLoad = {}): Promise<Scene> {
     const { signal, onProgress, transfer, baseUrl, allowEmpty, scene, animation, time, limits } = options;
-    const { compressedFormats, credentials } = options;
+    const { imageBudgetMiB, compressedFormats, credentials } = options;
     return new Promise((resolve, reject) => {
       signal?.throwIfAborted();
       if (this.#destroyed) throw new GltfError('gltf/worker', 'This GltfWorker has been destroyed: create another.');
@@ -119,6 +128,7 @@ export class GltfWorker {
         animation,
         time,
         limits,
+        imageBudgetMiB,
         compressedFormats,
         credentials,
         ...(baseUrl === undefined ? {} : { baseUrl: new URL(baseUrl, location.href).href }),

@@ -4,7 +4,10 @@ import type { GltfOptions, GltfProgress } from '../load';
 import type { GltfInput } from '../source';
 
 /** The options that are sent to the worker. */
-export type SentOptions = Pick<GltfOptions, 'allowEmpty' | 'scene' | 'animation' | 'time' | 'limits'> & {
+export type SentOptions = Pick<
+  GltfOptions,
+  'allowEmpty' | 'scene' | 'animation' | 'time' | 'imageBudgetMiB' | 'limits'
+> & {
   readonly baseUrl?: string;
   readonly compressedFormats?: readonly CompressedFormat[] | undefined;
   readonly credentials?: RequestCredentials | undefined;
