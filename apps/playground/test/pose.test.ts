@@ -80,7 +80,7 @@ test('a tracer is asked for what differs only, and what the user has edited stay
   ]);
   const still = recorder(posed);
   await applyPose(still.tracer, posed, { materials: {}, moves: {} });
-  expect(still.asked).toEqual([]);
+  expect(still.asked).toEqual([['move', []]]);
 });
 
 test('a part that the user has moved is moved from where the pose has it', async () => {

@@ -77,17 +77,18 @@ export abstract class TracerEdits {
 
   /**
    * Moves several parts as one edit: what {@link setInstanceTransform} does for each, but the film restarts once, and the
-   * GPU checks once. Of a part that is listed more than once, the last transform counts.
+   * GPU checks once. Of a part that is listed more than once, the last transform counts. An empty list does nothing: the
+   * film continues.
    *
    * @param list Names or indices with transforms.
    * @throws {RenderError} As {@link setInstanceTransform}; nothing has moved then.
    * @example
    * await tracer.setInstanceTransforms([['lid', lidAt(time)], ['wheel', wheelAt(time)]]);
    */
-  setInstanceTransforms(
+  async setInstanceTransforms(
     list: readonly (readonly [nameOrIndex: string | number, transform: ArrayLike<number>])[],
   ): Promise<void> {
-    return this.edit((editor) => editor.setTransforms(list));
+    if (list.length) return this.edit((editor) => editor.setTransforms(list));
   }
 
   /**

@@ -289,9 +289,7 @@ export class ThreePathTracer {
       ...(edits.shown.length > 0 ? [tracer.setVisibility(edits.shown, true)] : []),
       ...(edits.hidden.length > 0 ? [tracer.setVisibility(edits.hidden, false)] : []),
       ...edits.assigned.map(({ instance, material }) => tracer.setInstanceMaterial(instance, material)),
-      ...(edits.transforms.length > 0
-        ? [tracer.setInstanceTransforms(edits.transforms.map(({ instance, transform }) => [instance, transform]))]
-        : []),
+      tracer.setInstanceTransforms(edits.transforms.map(({ instance, transform }) => [instance, transform])),
       ...edits.lights.map(({ index, light }) => tracer.setLight(index, light)),
     ];
     if (edits.environment) work.push(this.#updateEnvironment(edits).then(() => this.#updateBackground()));

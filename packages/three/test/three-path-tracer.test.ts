@@ -69,7 +69,11 @@ function counted(tracer: PathTracer) {
   const spies = EDITS.map((name) => [name, vi.spyOn(tracer, name)] as const);
   return () => {
     const calls = Object.fromEntries(
-      spies.flatMap(([name, spy]) => (spy.mock.calls.length > 0 ? [[name, spy.mock.calls.length]] : [])),
+      spies.flatMap(([name, spy]) => {
+        // A list of no moves is no edit.
+        const count = spy.mock.calls.filter(([what]) => !Array.isArray(what) || what.length > 0).length;
+        return count > 0 ? [[name, count]] : [];
+      }),
     );
     for (const [, spy] of spies) spy.mockClear();
     return calls;

@@ -267,13 +267,9 @@ const applyPlacements = (
   { transforms, visibility, lights }: PoseChange,
   place: readonly number[] | undefined,
 ): Promise<void>[] => [
-  ...(transforms.length > 0
-    ? [
-        tracer.setInstanceTransforms(
-          transforms.map(({ instance, transform }) => [instance, place ? placed(place, transform) : transform]),
-        ),
-      ]
-    : []),
+  tracer.setInstanceTransforms(
+    transforms.map(({ instance, transform }) => [instance, place ? placed(place, transform) : transform]),
+  ),
   ...visibility.map(({ instance, visible }) => tracer.setVisibility(instance, visible)),
   ...lights.map(({ index, light }) => tracer.setLight(index, place ? placedLight(place, light) : light)),
 ];

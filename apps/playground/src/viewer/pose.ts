@@ -57,7 +57,7 @@ export async function applyPose(
   const moved = [...scene.instances.keys()]
     .map((i) => [i, placedTransform(scene, i, moves)] as const)
     .filter(([i, transform]) => !same(transform, shown.instances[i]?.transform ?? []));
-  if (moved.length > 0) await tracer.setInstanceTransforms(moved);
+  await tracer.setInstanceTransforms(moved);
   for (const [i, light] of scene.lights.entries()) if (!alike(light, shown.lights[i])) await tracer.setLight(i, light);
   for (const [i, material] of scene.materials.entries()) {
     const requested: Values = { ...material.parameters, ...materials[i] };

@@ -13,9 +13,7 @@ export async function applyPose(
   { transforms, visibility, lights, meshes }: PoseChange,
 ): Promise<void> {
   await Promise.all([
-    ...(transforms.length > 0
-      ? [tracer.setInstanceTransforms(transforms.map(({ instance, transform }) => [instance, transform]))]
-      : []),
+    tracer.setInstanceTransforms(transforms.map(({ instance, transform }) => [instance, transform])),
     ...visibility.map(({ instance, visible }) => tracer.setVisibility(instance, visible)),
     ...lights.map(({ index, light }) => tracer.setLight(index, light)),
     ...meshes.map(({ mesh, deformed }) => tracer.replaceMesh(mesh, deformed)),

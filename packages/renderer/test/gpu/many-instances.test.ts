@@ -301,3 +301,15 @@ it('of several moves none is made where one is invalid; of two of one instance t
   expect(places()).toEqual([before[0], at(6, 0, 0), before[2]]);
   tracer.destroy();
 });
+
+it('a list of no moves leaves the film as it is', async () => {
+  const scene = boxes(3, 1);
+  scene.environment = { type: 'constant', radiance: [1, 1, 1] };
+  const tracer = await PathTracer.create(device, scene, { width: 8, height: 8, camera });
+  for await (const _ of tracer.render({ samples: 2 }));
+  const before = await tracer.read('beauty');
+  await tracer.setInstanceTransforms([]);
+  expect(tracer.samples).toBe(2);
+  expect(await tracer.read('beauty')).toEqual(before);
+  tracer.destroy();
+});
