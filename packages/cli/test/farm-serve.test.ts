@@ -1,5 +1,7 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { FolderStore, startFarmWorker } from '@glanz/farm';
 import { findRedis, startRedis } from '@glanz/redis';
 import { expect, it, onTestFinished } from 'vitest';
 import { runCli } from '../src/index';
@@ -43,7 +45,25 @@ it.skipIf(found.missing !== undefined)(
     expect((await run('retry', '--all')).err).toBe('0 jobs are queued again\n');
     expect(JSON.parse((await run('status', '--json')).out)).toMatchObject({ ok: true, waiting: 0, deadLetters: [] });
     // Taken back, they can be submitted again.
-    expect((await run('submit', 'b.json')).code).toBe(0);
+    const again = await run('submit', 'b.json');
+    expect([again.code, again.err]).toEqual([0, expect.not.stringContaining('permanently')]);
     expect((await run('status')).out).toContain('3 waiting');
+
+    // Those that have failed permanently stay so, and submitting says it.
+    const worker = await startFarmWorker({
+      redis: redis.url,
+      store: new FolderStore(join(cwd, '.glanz-farm')),
+      renderer: {
+        script: fileURLToPath(new URL('../../farm/test/renderer.mjs', import.meta.url)),
+        args: [join(cwd, 'log.txt')],
+        env: { TEST_FAIL: 'input' },
+      },
+    });
+    onTestFinished(() => worker.drain());
+    writeFileSync(join(cwd, 'log.txt'), '');
+    await expect.poll(async () => (await run('status')).out, { timeout: 30_000 }).toContain('3 failed');
+    expect((await run('submit', 'b.json')).err).toMatch(
+      /3 jobs of this queue have failed permanently.*glanz farm retry/,
+    );
   },
 );

@@ -295,8 +295,11 @@ describe('without a queue', () => {
 
   it('the manifest says what is missing', async () => {
     const folder = batchFolder(1);
-    const task = await glanz(['farm', 'task', 'batch.json', '--image', '0,2', '--gpu', 'software', '-q'], folder);
+    const task = await glanz(['farm', 'task', 'batch.json', '--image', '0,2', '--gpu', 'software'], folder);
     expect(task.code, task.err).toBe(0);
+    // Images have the names of the batch, not those that they have in the store until they are finished.
+    expect(task.err).toMatch(/^out\/red-turntable-000\.png · red · turntable-000: 16×16, 4 samples at /m);
+    expect(task.err).not.toContain('working');
     expect(readdirSync(join(folder, 'out')).sort()).toEqual(['deep_blue-turntable-000.png', 'red-turntable-000.png']);
     const { code, out } = await glanz(['farm', 'manifest', 'batch.json', '--manifest', 'm.json', '--json'], folder);
     expect([code, out]).toEqual([1, '{"ok":false,"images":2,"missing":1,"manifest":"m.json"}\n']);

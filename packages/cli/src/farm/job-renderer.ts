@@ -75,7 +75,10 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
       const store = await storeAt(address);
       hierarchies = await storedHierarchies(store, (error) => progress.warning(describeError(error).message));
       const files = payload.outputs.map((target, i) => outputName(i, target));
-      const shot = await shotOf(payload, store, folder, job.kind === 'merge' ? undefined : checkpoint);
+      const shot = {
+        ...(await shotOf(payload, store, folder, job.kind === 'merge' ? undefined : checkpoint)),
+        label: job.label,
+      };
       const imageOnly = shot.options.denoise === undefined && areImagesOnly(shot.outputs);
       const merged = job.kind === 'merge' ? await readParts(job.parts ?? [], store, imageOnly) : undefined;
       if (merged && shot.options.denoise === undefined)

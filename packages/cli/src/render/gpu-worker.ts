@@ -168,7 +168,7 @@ export class GpuWorker {
     const samplesPerSecond =
       timings.renderMs > 0 ? Math.max(0, samples - making.resumed) / (timings.renderMs / 1000) : 0;
     const gpuLosses = this.#gpu.losses - making.lossesBefore;
-    const names = files.map(({ path }) => path).join(', ');
+    const names = shot.label ?? files.map(({ path }) => path).join(', ');
     progress.line(
       `${names}: ${options.width}×${options.height}, ${samples}${signal.aborted && settings.noise === undefined ? ` of ${settings.samples}` : ''} ${settings.samples === 1 ? 'sample' : 'samples'} at ${rate(samplesPerSecond)}/s, ${denoised ? `denoised (${denoised.quality}), ` : ''}${duration(timings.totalMs)} in all`,
     );

@@ -27,6 +27,8 @@ export interface Shot {
   readonly outputs: readonly OutputTarget[];
   /** Likewise; `undefined`: samples are kept in memory only. */
   readonly checkpoint: string | undefined;
+  /** What progress calls it, where its files get their names later. Default: their paths. */
+  readonly label?: string;
   /** Its film is for a merge alone, which does not need the image that it has come to. */
   readonly isPart?: boolean;
   /** It is a frame of a film. */

@@ -126,6 +126,11 @@ async function submit(
     }
     const submission = await queue.submit(requests(), store, () => progress.stage('submit', images / total));
     progress.clear();
+    const { failed } = await queue.status();
+    if (failed > 0)
+      progress.warning(
+        `${failed} jobs of this queue have failed permanently, and submitting them again does not queue them: glanz farm status has their reasons, glanz farm retry queues them.`,
+      );
     const { queued } = submission;
     finished += submission.finished;
     report(
