@@ -52,9 +52,10 @@ export const RENDER_FLAGS = Object.fromEntries(
 /** Settings of an image: all that have a default, and the others where the command line gives them. */
 export type FlagSettings = Omit<ResolvedSettings, Excluded>;
 
-const EXAMPLES: Partial<Record<RenderOption['type'], string>> = {
-  filter: ', such as gaussian or gaussian:2',
-  limits: ', such as diffuse=2,specular=4',
+const EXAMPLES: Partial<Record<FlagName, string>> = {
+  filter: 'gaussian or gaussian:2',
+  maxBounces: 'diffuse=2,specular=4',
+  memory: 'budgetMiB=512',
 };
 
 /**
@@ -74,7 +75,7 @@ export function settingsOf(values: Readonly<Record<string, unknown>>): FlagSetti
     if (!takesOption(name, value))
       throw new CliError(
         'cli/usage',
-        `--${flag} must be ${optionValues(name)}${EXAMPLES[row.type] ?? ''}, not "${String(given)}".`,
+        `--${flag} must be ${optionValues(name)}${EXAMPLES[name] ? `, such as ${EXAMPLES[name]}` : ''}, not "${String(given)}".`,
       );
     settings[name] = value;
   }
@@ -118,7 +119,7 @@ function valuesText(name: FlagName): string {
       `${Object.keys((row as FilterOption).radii)
         .map(named)
         .join(', ')}; NAME:RADIUS in pixels`,
-    limits: () => `${(row as LimitsOption).values.join(', ')}: diffuse=2,specular=4`,
+    limits: () => `${(row as LimitsOption).values.join(', ')}: ${EXAMPLES[name]}`,
     names: () => '',
     number: () => rangeText(row as NumberOption),
     integer: () => rangeText(row as NumberOption),

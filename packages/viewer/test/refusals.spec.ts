@@ -1,5 +1,6 @@
 import { fileURLToPath } from 'node:url';
-import { injectFaults, servePage, watch, type Served } from '@glanz/browser';
+import { crc32, deflateSync } from 'node:zlib';
+import { injectFaults, quads, servePage, watch, type Served } from '@glanz/browser';
 import { expect, test } from '@playwright/test';
 import type { PerspectiveCamera } from '@glanz/scene';
 import { done, heard, model, open, shot } from './open';
@@ -243,6 +244,49 @@ test('of two environments that are asked for, the later one is shown, and the ea
   await done(page);
   const { mean } = await shot(page);
   expect(mean[0]).toBeGreaterThan(4 * mean[1]);
+});
+
+test('textures beyond a budget are a warning, once, and are shown without their largest levels', async ({ page }) => {
+  const size = 1024;
+  const chunk = (type: string, data: Buffer) => {
+    const body = Buffer.concat([Buffer.from(type), data]);
+    const framed = Buffer.alloc(body.length + 8);
+    framed.writeUInt32BE(data.length, 0);
+    body.copy(framed, 4);
+    framed.writeUInt32BE(crc32(body), body.length + 4);
+    return framed;
+  };
+  const header = Buffer.alloc(13);
+  header.writeUInt32BE(size, 0);
+  header.writeUInt32BE(size, 4);
+  header.set([8, 2], 8);
+  const row = Buffer.concat([Buffer.of(0), Buffer.alloc(3 * size, Buffer.of(10, 200, 10))]);
+  const png = Buffer.concat([
+    Buffer.of(0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a),
+    chunk('IHDR', header),
+    chunk('IDAT', deflateSync(Buffer.concat(Array.from({ length: size }, () => row)))),
+    chunk('IEND', Buffer.alloc(0)),
+  ]);
+  const textured = quads([{ name: 'left', colour: [1, 1, 1], at: [0, 0, 0] }], (json) => {
+    Object.assign(json, {
+      images: [{ uri: `data:image/png;base64,${png.toString('base64')}` }],
+      textures: [{ source: 0 }],
+    });
+    const [material] = json['materials'] as { pbrMetallicRoughness: object }[];
+    Object.assign(material!.pbrMetallicRoughness, { baseColorTexture: { index: 0 } });
+  });
+  await open(page, served.origin, { samples: 2, tracer: { memory: { budgetMiB: 2 } } }, textured);
+  expect(await heard(page, 'error')).toEqual([]);
+  expect(await heard(page, 'warning')).toEqual([
+    {
+      type: 'warning',
+      code: 'renderer/textures-reduced',
+      message: expect.stringMatching(/1 texture .*1\.3 MiB.*5\.3 MiB/),
+    },
+  ]);
+  const { mean } = await shot(page);
+  // The image is green; without its texture the square would be white, as what is behind it.
+  expect(mean[1]! - mean[0]!).toBeGreaterThan(20);
 });
 
 test('an environment that is missing or broken is a warning, and the studio lights the model', async ({ page }) => {
