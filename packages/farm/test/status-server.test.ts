@@ -19,7 +19,7 @@ const STATUS: FarmStatus = {
 };
 
 /** A server of a store with one result, on a queue that only answers. */
-async function served() {
+async function served(thumbnailOf?: (file: string) => Promise<Uint8Array>) {
   const store = new FolderStore(temporaryFolder());
   const { id } = jobOf('a');
   const folder = await store.begin(id);
@@ -35,7 +35,7 @@ async function served() {
     recent: async () => [(await store.result(id))!],
     deadLetters: async () => [{ id, label: 'b', reason: 'it failed', failed: '', log: ['line'] }],
   } as unknown as FarmQueue;
-  const server = statusServer(queue, store);
+  const server = statusServer(queue, store, thumbnailOf);
   await new Promise<void>((done) => server.listen(0, '127.0.0.1', done));
   onTestFinished(() => void server.close());
   const base = `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
@@ -57,6 +57,23 @@ it('serves the page, the status, metrics and images', async () => {
   expect(await (await get(`/result/${id}/0`)).text()).toBe('PNG');
   expect((await get('/metrics')).headers.get('content-type')).toBe('text/plain; version=0.0.4');
   expect(await (await get('/metrics')).text()).toContain('glanz_farm_jobs{state="waiting"} 2');
+});
+
+it('thumbnails are made once for each image, and replaced by the image where that fails', async () => {
+  const made: string[] = [];
+  const { get, id } = await served(async (file) => {
+    made.push(file);
+    return new TextEncoder().encode('small');
+  });
+  const texts = await Promise.all([1, 2].map(async () => (await get(`/thumbnail/${id}/0`)).text()));
+  expect(texts).toEqual(['small', 'small']);
+  expect(made.length).toBe(1);
+  expect(await (await get(`/result/${id}/0`)).text()).toBe('PNG');
+  expect((await get(`/thumbnail/${id}/1`)).status).toBe(404);
+  const failing = await served(() => Promise.reject(new Error('no image')));
+  expect(await (await failing.get(`/thumbnail/${failing.id}/0`)).text()).toBe('PNG');
+  const without = await served();
+  expect(await (await without.get(`/thumbnail/${without.id}/0`)).text()).toBe('PNG');
 });
 
 it('the page requests nothing from elsewhere and writes no markup of names', async () => {

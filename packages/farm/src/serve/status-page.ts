@@ -66,10 +66,12 @@ function show({ status, recent, deadLetters }) {
     const old = known.get(id);
     if (old) return old;
     const img = make('img');
-    img.src = '/result/' + id + '/' + image;
-    img.alt = '';
+    img.src = '/thumbnail/' + id + '/' + image;
+    img.alt = label;
     img.loading = 'lazy';
-    const figure = make('figure', undefined, img, make('figcaption', label + ', ' + seconds.toFixed(1) + ' s'));
+    const link = make('a', undefined, img);
+    link.href = '/result/' + id + '/' + image;
+    const figure = make('figure', undefined, link, make('figcaption', label + ', ' + seconds.toFixed(1) + ' s'));
     figure.dataset.id = id;
     return figure;
   }));

@@ -5,6 +5,7 @@ import type { FarmQueue } from '../queue/farm-queue';
 import type { FarmStore } from '../store/store';
 import { acceptsHost } from './loopback-host';
 import { STATUS_PAGE } from './status-page';
+import { Thumbnails } from './thumbnails';
 
 /** Nothing from anywhere else: the page's own style and script, its images and data from this server. */
 const POLICY =
@@ -32,8 +33,16 @@ const FRESH_MS = 500;
  * | `/status.json` | status, the latest results, dead letters |
  * | `/metrics` | Prometheus text |
  * | `/result/ID/N` | the Nth file of a result, `.png` only |
+ * | `/thumbnail/ID/N` | the same, small where `thumbnailOf` makes it so |
+ *
+ * @param thumbnailOf Makes a small PNG of an image file. Default: the page shows the images themselves, small.
  */
-export function statusServer(queue: FarmQueue, store: FarmStore): StatusServer {
+export function statusServer(
+  queue: FarmQueue,
+  store: FarmStore,
+  thumbnailOf?: (file: string) => Promise<Uint8Array>,
+): StatusServer {
+  const thumbnails = new Thumbnails(thumbnailOf);
   let cached: { readonly at: number; readonly text: Promise<string> } | undefined;
   const statusText = () => {
     if (!cached || Date.now() - cached.at > FRESH_MS) {
@@ -65,7 +74,7 @@ export function statusServer(queue: FarmQueue, store: FarmStore): StatusServer {
       if (pathname === '/status.json') return send(response, 200, 'application/json', await statusText());
       if (pathname === '/metrics')
         return send(response, 200, 'text/plain; version=0.0.4', farmMetrics(await queue.status()));
-      const [, id, index] = /^\/result\/([0-9a-f]{40})\/(\d{1,3})$/.exec(pathname) ?? [];
+      const [, kind, id, index] = /^\/(result|thumbnail)\/([0-9a-f]{40})\/(\d{1,3})$/.exec(pathname) ?? [];
       const name = id && (await store.result(id))?.files[Number(index)]?.name;
       if (!id || !name || !/^[\w-]+\.png$/.test(name)) return send(response, 404, 'text/plain', 'Not found.\n');
       const file = await store.resultFile(id, name);
@@ -76,6 +85,8 @@ export function statusServer(queue: FarmQueue, store: FarmStore): StatusServer {
         'content-security-policy': POLICY,
         'x-content-type-options': 'nosniff',
       });
+      const small = kind === 'thumbnail' ? await thumbnails.of(file) : undefined;
+      if (small) return void response.end(small);
       createReadStream(file)
         .on('error', () => response.destroy())
         .pipe(response);
