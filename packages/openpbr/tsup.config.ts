@@ -4,6 +4,7 @@ export default glanzPackage({
   index: 'src/index.ts',
   parameters: 'src/parameters/index.ts',
   wgsl: 'src/wgsl/index.ts',
+  lobes: 'src/wgsl/lobes/index.ts',
   cpu: 'src/cpu/index.ts',
   tables: 'src/tables/index.ts',
   gltf: 'src/gltf/index.ts',

@@ -33,6 +33,27 @@ export const brushed: Material = {
 };
 // #endregion materials
 
+// #region draft
+export const lacquer: Material = {
+  name: 'old lacquer',
+  parameters: {
+    base_color: [0.02, 0.03, 0.08],
+    specular_roughness: 0.05,
+    specular_haze: 0.4, // of the facets
+    specular_haze_spread: 0.5,
+  },
+};
+
+export const tape: Material = {
+  name: 'reflective tape',
+  parameters: {
+    base_metalness: 1,
+    specular_roughness: 0.3,
+    specular_retroreflectivity: 1,
+  },
+};
+// #endregion draft
+
 // #region edit
 export async function repaint(tracer: PathTracer) {
   // By name, or by index.

@@ -1,4 +1,13 @@
-import { openpbr, openpbrEmission, openpbrOpacity, OPENPBR_PARAMETER_NAMES, openPbrStruct } from '@glanz/openpbr';
+import {
+  openpbr,
+  openpbrEmission,
+  openpbrOpacity,
+  OPENPBR_PARAMETER_NAMES,
+  OPENPBR_PARAMETER_SPECS,
+  openPbrStruct,
+  type OpenPbrParameterName,
+} from '@glanz/openpbr';
+import { openpbrLobes } from '@glanz/openpbr/lobes';
 import type { WgslModule } from '@glanz/wgsl';
 
 /** Parameters that hosts read in their own code rather than in the surface's: frames, and how media begin. */
@@ -15,6 +24,10 @@ export function actingParameters(): string[] {
       module.deps.map((dependency) => textOf('module' in dependency ? dependency.module : dependency)).join('')
     );
   };
-  const text = [openpbr, openpbrEmission, openpbrOpacity].map(textOf).join('');
-  return OPENPBR_PARAMETER_NAMES.filter((name) => IN_HOSTS.includes(name) || new RegExp(`\\.${name}\\b`).test(text));
+  const text = [openpbr, openpbrLobes, openpbrEmission, openpbrOpacity].map(textOf).join('');
+  // Those of the draft share a word of the record.
+  const fieldOf = (name: OpenPbrParameterName) => (OPENPBR_PARAMETER_SPECS[name].draft ? 'specular_lobes' : name);
+  return OPENPBR_PARAMETER_NAMES.filter(
+    (name) => IN_HOSTS.includes(name) || new RegExp(`\\.${fieldOf(name)}\\b`).test(text),
+  );
 }

@@ -1,8 +1,8 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, arrays beyond a binding,
-// animations, a ground, guiding, noise targets, textures beyond a budget), and what saves images, lies beside it and is fetched by import() when
-// it is needed.
+// animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection), and what saves
+// images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -28,6 +28,7 @@ else if (self.name === 'glanz-bvh') {
 /** Modules that have files of their own, by the name that the sources import. */
 const LATER = {
   '@glanz/formats/usd': 'glanz-viewer.usd.min.js',
+  '@glanz/openpbr/lobes': 'glanz-viewer.lobes.min.js',
   '@glanz/image/environment': 'glanz-viewer.environment.min.js',
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
@@ -57,6 +58,7 @@ const SOURCES = {
   './ldr-environment': './src/ldr-environment',
   './load-other': './src/load-other',
   './prompt': '../element/src/prompt',
+  '@glanz/openpbr/lobes': '../openpbr/src/wgsl/lobes/index',
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
   './guide-kernels': '../renderer/src/integrator/guide-kernels',
   './soft-shadows': '../renderer/src/integrator/soft-shadows',

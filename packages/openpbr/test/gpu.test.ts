@@ -15,6 +15,7 @@ import {
   uniform,
   unit,
   upperDirection,
+  withLobes,
 } from './random';
 
 afterEach(() => expectNoGpuErrors());
@@ -54,9 +55,22 @@ const ALL: OpenPbrFlags = {
   OPENPBR_COSINE: true,
   OPENPBR_DIFFUSE_ROUGHNESS: true,
   OPENPBR_ANISOTROPY: true,
+  OPENPBR_HAZE: false,
+  OPENPBR_RETROREFLECTION: false,
+  OPENPBR_LOBES: false,
   OPENPBR_MULTISCATTER: true,
   OPENPBR_EMISSION: true,
 };
+
+/** What the draft of 1.2 adds. */
+const LOBES = { OPENPBR_HAZE: true, OPENPBR_RETROREFLECTION: true, OPENPBR_LOBES: true } as const;
+
+/** Haze, its spread and retroreflectivity in the steps that records have. */
+const steps = (haze: number, spread: number, retroreflectivity: number) => ({
+  specular_haze: haze / 1023,
+  specular_haze_spread: spread / 1023,
+  specular_retroreflectivity: retroreflectivity / 1023,
+});
 
 async function compare(flags: OpenPbrFlags, list: readonly GpuCase[]): Promise<void> {
   expectTwins(await onGpu(flags, list), list, flags.OPENPBR_MULTISCATTER);
@@ -197,6 +211,42 @@ describe('WGSL against its CPU twin', () => {
       await compare(flags, list);
     });
   };
+  /** Some directions near the viewer's, where light returns. */
+  const returned = (list: readonly GpuCase[], seed: number): GpuCase[] => {
+    const next = uniform(seed);
+    return list.map((one) => {
+      const near = next() < 0.2 && one.wi[2] > 0;
+      const [x, y, z] = one.wo;
+      return near ? { ...one, wi: single(unit([x + 0.02 * (next() - 0.5), y + 0.02 * (next() - 0.5), z])) } : one;
+    });
+  };
+  it('haze and retroreflection among every lobe below a coat, 2048 random surfaces (seed 70)', () =>
+    compare(
+      { ...OPAQUE(), ...LOBES },
+      returned(
+        cases(2048, 70, (next) => withLobes(anyCoated(next, 0), next)),
+        71,
+      ),
+    ));
+  it('haze and retroreflection of smooth lobes, 1024 random surfaces (seed 72)', () =>
+    compare(
+      { ...OPAQUE(), ...LOBES },
+      cases(1024, 72, (next) => ({
+        ...withLobes(anyCoated(next, 0), next),
+        specular_roughness: next() < 0.7 ? 0 : Math.fround(next()),
+        coat_roughness: next() < 0.7 ? 0 : Math.fround(next()),
+        coat_weight: next() < 0.5 ? 0 : Math.fround(next()),
+      })),
+    ));
+  it(
+    'haze and retroreflection of what lets light through, 1024 random surfaces from either side (seed 74)',
+    () =>
+      compare(
+        { ...ALL, ...LOBES, OPENPBR_THIN_FILM: false },
+        through(1024, 74, (next) => withLobes(anyClear(next, 0), next)),
+      ),
+    COMPILE_MS,
+  );
   const filmed = (next: () => number): Partial<OpenPbrParameters> => ({
     thin_film_weight: Math.fround(0.2 + 0.8 * next()),
     thin_film_thickness: Math.fround(next()),
@@ -253,6 +303,15 @@ describe('WGSL against its CPU twin', () => {
     thin_film_weight: 1,
     thin_film_ior: 1.8,
     thin_film_thickness: 0.6,
+  });
+  gated('hazy metal', 75, { base_metalness: 1, specular_weight: 1, ...steps(300, 400, 0) });
+  gated('returning dielectric over diffuse', 76, { base_metalness: 0, ...steps(0, 300, 600) });
+  gated('hazy film on diffuse', 77, {
+    base_metalness: 0,
+    specular_weight: 1,
+    specular_ior: 1.5,
+    thin_film_weight: 0.75,
+    ...steps(500, 500, 500),
   });
   gated('metal', 3, { base_metalness: 1, specular_weight: 1 });
   gated('diffuse', 4, { base_metalness: 0, specular_weight: 0 });

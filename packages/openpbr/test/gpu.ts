@@ -2,6 +2,7 @@ import { compose, wgslModule } from '@glanz/wgsl';
 import { runCompute, testDevice } from '@glanz/gpu';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 import { OPENPBR_TABLES } from '../src/tables/index';
+import { openpbrLobes } from '../src/wgsl/lobes/index';
 import { openpbr, openPbrStruct, packOpenPbr, type OpenPbrFlags } from '../src/wgsl/index';
 
 /** One surface, seen from one direction: a pair to evaluate, and numbers to sample with. */
@@ -81,7 +82,8 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return table(${dielectric.dat
   );
 
 /** The shader text for a set of flags. */
-export const gpuShader = (flags: OpenPbrFlags) => compose([host(flags.OPENPBR_TRANSMISSION)], { flags: { ...flags } });
+export const gpuShader = (flags: OpenPbrFlags) =>
+  compose([host(flags.OPENPBR_TRANSMISSION), ...(flags.OPENPBR_LOBES ? [openpbrLobes] : [])], { flags: { ...flags } });
 
 /** Runs the public WGSL functions over the cases on the test device. */
 export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Promise<GpuResult[]> {

@@ -39,10 +39,17 @@ export function integrateHemisphere(
 ): number[] {
   const base = coatedBase(p);
   const slopes = [ggxAlpha(base.specular_roughness, base.specular_roughness_anisotropy)];
+  if (p.specular_haze > 0) slopes.push(prepareBsdf(p, wo).haze.alpha);
+  // Retroreflection turns the directions of the facets of the base.
+  const returning = p.specular_retroreflectivity > 0 ? slopes.map(([x, y]): Slopes => [x, y]) : [];
+  slopes.push(...returning);
   if (p.coat_weight > 0) slopes.push(ggxAlpha(p.coat_roughness, p.coat_roughness_anisotropy));
   // Facets that reflect downwards are no use.
   const bounds = new Map(slopes.map((alpha) => [alpha, ggxBound(alpha, wo)]));
-  const density = (alpha: Slopes, wi: OpenPbrVector): number => {
+  const turn = (alpha: Slopes, [x, y, z]: OpenPbrVector): OpenPbrVector =>
+    returning.includes(alpha) ? [-x, -y, z] : [x, y, z];
+  const density = (alpha: Slopes, given: OpenPbrVector): number => {
+    const wi = turn(alpha, given);
     const h: [number, number, number] = [wo[0] + wi[0], wo[1] + wi[1], wo[2] + wi[2]];
     const length = length3(...h);
     const [x, y, z] = [h[0] / length, h[1] / length, h[2] / length];
@@ -78,7 +85,7 @@ export function integrateHemisphere(
       for (const alpha of slopes) {
         const h = ggxSample(alpha, wo, [(i + 0.5) / around, nodes[k] as number], bounds.get(alpha));
         const c = 2 * (wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2]);
-        add([c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]], (weights[k] as number) / around);
+        add(turn(alpha, [c * h[0] - wo[0], c * h[1] - wo[1], c * h[2] - wo[2]]), (weights[k] as number) / around);
       }
     }
   }

@@ -6,6 +6,8 @@ export const LOBES = {
   specular_weight: [0],
   specular_ior: [0.9, 1.05],
   specular_roughness_anisotropy: [0.5],
+  specular_haze: [0.5],
+  specular_retroreflectivity: [0.5],
   transmission_weight: [1, 0.5],
   subsurface_weight: [0.5],
   geometry_thin_walled: [true],

@@ -536,6 +536,7 @@ describe('writeMaterialX', () => {
       for (const parameter of OPENPBR_PARAMETER_NAMES) {
         const { type, softRange, default: initial } = OPENPBR_PARAMETERS[parameter];
         if (random() < 0.6) continue;
+        const { texturable } = OPENPBR_PARAMETERS[parameter];
         const number = () => softRange![0] + (softRange![1] - softRange![0]) * (0.01 + 0.98 * random());
         if (type === 'boolean') parameters[parameter] = true;
         else if (type === 'float') parameters[parameter] = number();
@@ -550,7 +551,7 @@ describe('writeMaterialX', () => {
             colorSpace: 'linear',
             ...(random() < 0.5 ? { scale: random() } : {}),
           };
-        if (type === 'boolean' || type === 'vector3' || random() < 0.4) continue;
+        if (!texturable || type === 'vector3' || random() < 0.4) continue;
         parameters[parameter] ??= initial;
         textures[parameter] = {
           file: `dir/${parameter}.png`,

@@ -11,8 +11,11 @@ import {
 import { presets } from './oracle/index';
 
 describe('parameter table', () => {
-  it('holds the 41 parameters of OpenPBR 1.1.1', () => {
-    expect(OPENPBR_PARAMETER_NAMES).toHaveLength(41);
+  it('holds the 41 parameters of OpenPBR 1.1.1, and three of the draft of 1.2 that do nothing by default', () => {
+    const draft = OPENPBR_PARAMETER_NAMES.filter((name) => OPENPBR_PARAMETERS[name].draft);
+    expect(draft).toEqual(['specular_haze', 'specular_haze_spread', 'specular_retroreflectivity']);
+    expect(draft.map((name) => OPENPBR_PARAMETERS[name].default)).toEqual([0, 0.3, 0]);
+    expect(OPENPBR_PARAMETER_NAMES).toHaveLength(44);
     for (const name of OPENPBR_PARAMETER_NAMES) expect(OPENPBR_PARAMETERS[name].name).toBe(name);
   });
 

@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import { gaussLegendre } from '../scripts/microfacet.mjs';
 import { dispersedIor, phaseEval, phaseSample, transmissionMedium } from '../src/cpu/index';
 import type { OpenPbrVector } from '../src/parameters/index';
-import { openpbrMedium, openpbrPhase, openPbrStruct, packOpenPbr } from '../src/wgsl/index';
+import { openpbrMedium, openpbrPhase, openPbrStruct, packOpenPbr, requiredFeatures } from '../src/wgsl/index';
 import { anyClear, single, uniform } from './random';
 
 const GS = [-0.9, -0.5, 0, 1e-4, 0.3, 0.8, 0.95];
@@ -81,7 +81,7 @@ struct Result { wi: vec3f, value: f32, extinction: vec3f, ior: f32, scattering: 
   cases.forEach(({ p }, i) => packOpenPbr(materials, i, p));
   const inputs = new Float32Array(cases.flatMap(({ wo, wi, u, wavelength }) => [...wo, 0, ...wi, 0, ...u, wavelength]));
   const out = new Float32Array(
-    await runCompute(await testDevice(), compose([host]).code, {
+    await runCompute(await testDevice(), compose([host], { flags: { ...requiredFeatures([]) } }).code, {
       inputs: [materials, inputs],
       outputBytes: cases.length * 48,
       workgroups: cases.length / 64,

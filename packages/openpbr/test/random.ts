@@ -88,6 +88,13 @@ export function anyClear(next: () => number, smoothest: number): OpenPbrParamete
   });
 }
 
+/** The same with haze and retroreflection, each of them in half of the surfaces, in the steps that records have. */
+export function withLobes(p: OpenPbrParameters, next: () => number): OpenPbrParameters {
+  const step = () => Math.fround(Math.round(1023 * next()) / 1023);
+  const [specular_haze, specular_retroreflectivity] = [next() < 0.5 ? 0 : step(), next() < 0.5 ? 0 : step()];
+  return { ...p, specular_haze, specular_haze_spread: step(), specular_retroreflectivity };
+}
+
 /** A direction on the other side. */
 export function lowerDirection(next: () => number, floor = 0): OpenPbrVector {
   const [x, y, z] = upperDirection(next, floor);

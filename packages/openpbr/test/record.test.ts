@@ -1,3 +1,4 @@
+import { compose } from '@glanz/wgsl';
 import { describe, expect, it } from 'vitest';
 import {
   OPENPBR_PARAMETER_NAMES,
@@ -18,8 +19,25 @@ describe('packOpenPbr', () => {
     }),
   ) as unknown as OpenPbrParameters;
 
-  it('has a field of its own for every parameter', () => {
-    expect(openPbrStruct.fields.map(({ name }) => name).toSorted()).toEqual([...OPENPBR_PARAMETER_NAMES].toSorted());
+  const own111 = OPENPBR_PARAMETER_NAMES.filter((name) => !OPENPBR_PARAMETERS[name].draft);
+
+  it('has a field of its own for every parameter, but one for those of the draft', () => {
+    expect(openPbrStruct.fields.map(({ name }) => name).toSorted()).toEqual([...own111, 'specular_lobes'].toSorted());
+  });
+
+  it('holds those of the draft in ten bits each, within the padding of a record without them', () => {
+    const buffer = openPbrStruct.allocate();
+    packOpenPbr(
+      buffer,
+      0,
+      resolveParameters({ specular_haze: 1, specular_haze_spread: 0.25, specular_retroreflectivity: 0.5 }),
+    );
+    const at = openPbrStruct.offsetOf('specular_lobes');
+    const word = new Uint32Array(buffer)[at / 4] as number;
+    expect([word & 1023, (word >> 10) & 1023, word >> 20]).toEqual([1023, 256, 512]);
+    expect(at + 4).toBe(openPbrStruct.size);
+    const text = (OPENPBR_LOBES: boolean) => compose([openPbrStruct.module], { flags: { OPENPBR_LOBES } }).code;
+    expect(text(true)).toBe(text(false).replace(/}\n$/, '  specular_lobes: u32,\n}\n'));
   });
 
   it('writes each into its place, and no other record', () => {
@@ -28,8 +46,8 @@ describe('packOpenPbr', () => {
     const floats = new Float32Array(buffer, openPbrStruct.size),
       integers = new Uint32Array(buffer, openPbrStruct.size);
     const taken = new Set<number>();
-    for (const name of OPENPBR_PARAMETER_NAMES) {
-      const at = openPbrStruct.offsetOf(name) / 4;
+    for (const name of own111) {
+      const at = openPbrStruct.offsetOf(name as 'base_color') / 4;
       const value = distinct[name];
       if (typeof value === 'boolean') expect(integers[at]).toBe(1);
       else [value].flat().forEach((component, i) => expect(floats[at + i], name).toBe(component));

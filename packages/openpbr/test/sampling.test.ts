@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { evalPdfBsdf, pdfBsdf, prepareBsdf, sampleBsdf, type Bsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction, furnace } from './integrate';
-import { anyCoated, anySurface, uniform, upperDirection } from './random';
+import { anyCoated, anySurface, uniform, upperDirection, withLobes } from './random';
 
 const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
   ['the default', {}],
@@ -23,6 +23,20 @@ const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
     },
   ],
   ['coat over the default', { coat_weight: 1, coat_roughness: 0.35 }],
+  ['hazy metal', { base_metalness: 1, specular_roughness: 0.3, specular_haze: 0.5, specular_haze_spread: 0.5 }],
+  ['retroreflection over diffuse', { specular_roughness: 0.4, specular_retroreflectivity: 0.6 }],
+  [
+    'haze and retroreflection of stretched half metal below a coat',
+    {
+      base_metalness: 0.5,
+      specular_roughness: 0.4,
+      specular_roughness_anisotropy: 0.5,
+      specular_haze: 0.3,
+      specular_retroreflectivity: 0.5,
+      coat_weight: 0.6,
+      coat_roughness: 0.4,
+    },
+  ],
   ['half metal of a high index', { base_metalness: 0.5, specular_ior: 2.2, specular_roughness: 0.5 }],
 ];
 const VIEWS: readonly OpenPbrVector[] = [direction(0.9), direction(0.25)];
@@ -126,9 +140,10 @@ describe('sampling', () => {
 
   it('reports the density and the weight of the direction that it gives, 5000 random surfaces (seed 21)', () => {
     const next = uniform(21);
+    const lobes = uniform(23);
     let compared = 0;
     for (let i = 0; i < 5000; i++) {
-      const p = (i % 2 === 0 ? anySurface : anyCoated)(next, 0.2);
+      const p = withLobes((i % 2 === 0 ? anySurface : anyCoated)(next, 0.2), lobes);
       const wo = upperDirection(next, 0.02);
       const b = prepareBsdf(p, wo);
       const s = sampleBsdf(b, wo, [next(), next(), next()]);
@@ -145,9 +160,10 @@ describe('sampling', () => {
 
   it('never answers with a weight that is out of proportion: at most 4, 20000 random surfaces (seed 22)', () => {
     const next = uniform(22);
+    const lobes = uniform(24);
     let largest = 0;
     for (let i = 0; i < 20_000; i++) {
-      const p = (i % 2 === 0 ? anySurface : anyCoated)(next, 0);
+      const p = withLobes((i % 2 === 0 ? anySurface : anyCoated)(next, 0), lobes);
       const wo = upperDirection(next, 0.001);
       const { weight } = sampleBsdf(prepareBsdf(p, wo), wo, [next(), next(), next()]);
       largest = Math.max(largest, ...weight);

@@ -40,6 +40,11 @@ interface Technique {
 /** Steep facets refract upwards, where the density knows nothing of it. */
 const lower = (wi: OpenPbrVector | undefined): OpenPbrVector | undefined => (wi && wi[2] < 0 ? wi : undefined);
 const flip = ([x, y, z]: OpenPbrVector): OpenPbrVector => [x, y, -z];
+function turned(w: OpenPbrVector): OpenPbrVector;
+function turned(w: OpenPbrVector | undefined): OpenPbrVector | undefined;
+function turned(w: OpenPbrVector | undefined): OpenPbrVector | undefined {
+  return w && [-w[0], -w[1], w[2]];
+}
 
 function reflection(alpha: Slopes, wo: OpenPbrVector, side: 1 | -1): Technique {
   const bound = ggxBound(alpha, wo);
@@ -75,13 +80,21 @@ export function sphereFurnace(
   const b = prepareBsdf(p, wo, options);
   const { thin, thinAlpha, eta } = b.transmission;
   const techniques: Technique[] = [reflection(b.alpha, wo, 1)];
+  if (b.haze.weight > 0) techniques.push(reflection(b.haze.alpha, wo, 1));
+  if (b.retroreflectivity > 0)
+    techniques.push(
+      ...techniques.map((forward) => ({
+        at: (u: number, v: number) => turned(forward.at(u, v)),
+        density: (wi: OpenPbrVector) => forward.density(turned(wi)),
+      })),
+    );
   if (p.coat_weight > 0) techniques.push(reflection(b.coat.alpha, wo, 1));
-  if (thin) techniques.push(reflection(thinAlpha, wo, -1));
-  else
-    techniques.push({
-      at: (u, v) => lower(refract(eta, wo, ggxSample(b.alpha, wo, [u, v]))),
-      density: (wi) => (wi[2] < 0 ? refractGgx(eta, b.alpha, wo, wi, refractHalf(eta, wo, wi))[1] : 0),
-    });
+  const refraction = (alpha: Slopes): Technique => ({
+    at: (u, v) => lower(refract(eta, wo, ggxSample(alpha, wo, [u, v]))),
+    density: (wi) => (wi[2] < 0 ? refractGgx(eta, alpha, wo, wi, refractHalf(eta, wo, wi))[1] : 0),
+  });
+  techniques.push(thin ? reflection(thinAlpha, wo, -1) : refraction(b.alpha));
+  if (b.haze.weight > 0) techniques.push(thin ? reflection(b.haze.alpha, wo, -1) : refraction(b.haze.alpha));
   techniques.push({
     at: (u, v) => {
       // √ spreads nodes towards grazing.

@@ -144,6 +144,7 @@ export interface StructLayout<Name extends string = string> {
  *
  * @param name WGSL name of the struct.
  * @param fields Field names and types, in order.
+ * @param gates Flags of fields that only programs with the flag declare: the last ones, within the struct's padding.
  * @throws {StructError} `wgsl/empty-struct`, `wgsl/field-type`
  * @example
  * const Frame = struct('Frame', { size: 'vec2u', sample: 'u32', exposure: 'f32' });
@@ -153,6 +154,7 @@ export interface StructLayout<Name extends string = string> {
 export function struct<const Fields extends Readonly<Record<string, WgslFieldType>>>(
   name: string,
   fields: Fields,
+  gates: Partial<Record<keyof Fields, string>> = {},
 ): StructLayout<keyof Fields & string> {
   const table = new Map<string, StructField & { readonly layout: TypeLayout }>();
   let end = 0;
@@ -183,7 +185,13 @@ export function struct<const Fields extends Readonly<Record<string, WgslFieldTyp
     fields: all.map(({ layout: _layout, ...field }) => field),
     module: wgslModule(
       `struct/${name}`,
-      `struct ${name} {\n${all.map((field) => `  ${field.name}: ${field.type},`).join('\n')}\n}`,
+      `struct ${name} {\n${all
+        .map((field) => {
+          const member = `  ${field.name}: ${field.type},`;
+          const flag = gates[field.name];
+          return flag === undefined ? member : `//#if ${flag}\n${member}\n//#endif`;
+        })
+        .join('\n')}\n}`,
       [...new Set(all.flatMap(({ layout }) => layout.structs))],
     ),
     offsetOf: (field) => find(field).offset,

@@ -7,6 +7,7 @@ import { dielectricEpsilon, fresnelDielectric, fresnelMetal, fresnelMetalMean } 
 import { filmFacet, filmReflectance, filmChange, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { fuzzAlbedo, fuzzDensity, fuzzSample, prepareFuzz, type Fuzz } from './fuzz';
 import { ggx, ggxAlpha, ggxBound, ggxSample, halfVector, isSmooth, SPIKE, type Slopes } from './ggx';
+import { hazeThrough, mix, mixInterfaces, mixThin, prepareHaze, turned, type Haze } from './haze';
 import { prepareThinSubsurface, type ThinSubsurface } from './subsurface';
 import {
   prepareTransmission,
@@ -76,6 +77,10 @@ export interface Bsdf {
   readonly below: number;
   readonly coat: Coat;
   readonly fuzz: Fuzz;
+  /** The facets of the second kind, and of metal of this kind multiple scattering and its mean loss. */
+  readonly haze: Haze & { readonly multiscatter: OpenPbrColor; readonly meanLost: number };
+  /** Share of what facets reflect that returns. */
+  readonly retroreflectivity: number;
   /** Probability of sampling the fuzz; else it is what lies below. */
   readonly fuzzProbability: number;
   /** Probability of sampling the coat; else it is the base. */
@@ -103,7 +108,6 @@ export interface BsdfSample {
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const rgbOf = <T>(channel: (i: 0 | 1 | 2) => T): readonly [T, T, T] => [channel(0), channel(1), channel(2)];
-const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 const sum = (color: OpenPbrColor): number => color[0] + color[1] + color[2];
 
 /** The parameters with indices relative to what is outside, and no coat in front from inside. */
@@ -163,34 +167,45 @@ export function prepareBsdf(
   const f0 = rgb((i) => p.base_weight * p.base_color[i]);
   const weight = Math.min(p.specular_weight, 1e6);
   const alpha = ggxAlpha(roughness, p.specular_roughness_anisotropy);
-  const lost = multipleScattering ? conductorLoss(alpha, roughness, wo, mu) : 0;
-  const meanLost = Math.max(conductorLossMean(alpha, roughness), 1e-7);
+  const haze = prepareHaze(whole, wo);
+  const isHazy = haze.weight > 0;
   const film = prepareFilm(whole, outerIor, inside, filmWavelengths);
   const index = rgbOf((i) => metalIndex(f0[i], p.specular_color[i]));
-  const seen = mu + 0.8 * roughness * roughness * (1 - mu);
-  const typical = filmedMetal(film, index, weight, seen, fresnelMetal(f0, p.specular_color, seen, weight));
-  const mean = filmedMetal(film, index, weight, 0.7, fresnelMetalMean(f0, p.specular_color, weight));
-  const limit = clamp(weight, 1e-6, 1);
-  const metalMultiscatter = rgb(
-    (i) => (p.base_metalness * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7),
-  );
+  const metalOf = (slopes: Slopes, r: number, share: number) => {
+    const lost = multipleScattering ? conductorLoss(slopes, r, wo, mu) : 0;
+    const meanLost = Math.max(conductorLossMean(slopes, r), 1e-7);
+    const seen = mu + 0.8 * r * r * (1 - mu);
+    const typical = filmedMetal(film, index, weight, seen, fresnelMetal(f0, p.specular_color, seen, weight));
+    const mean = filmedMetal(film, index, weight, 0.7, fresnelMetalMean(f0, p.specular_color, weight));
+    const limit = clamp(weight, 1e-6, 1);
+    const amount = p.base_metalness * share;
+    return {
+      albedo: rgb((i) => amount * typical[i] * (1 - lost)),
+      multiscatter: rgb(
+        (i) => (amount * lost * (1 - meanLost) * mean[i] * mean[i]) / Math.max(limit - mean[i] * meanLost, 1e-7),
+      ),
+      meanLost,
+    };
+  };
+  const metal = metalOf(alpha, roughness, 1 - haze.weight);
+  const hazyMetal = metalOf(haze.alpha, haze.roughness, haze.weight);
   const tint: OpenPbrColor = inside ? [1, 1, 1] : p.specular_color;
   const insulator = 1 - p.base_metalness;
-  const face = prepareInterface(p, alpha, wo, mu, multipleScattering);
+  const interfaceOf = (surface: OpenPbrParameters) => {
+    const first = prepareInterface(surface, alpha, wo, mu, multipleScattering);
+    if (!isHazy) return first;
+    const second = { ...surface, specular_roughness: haze.roughness };
+    return mixInterfaces(first, prepareInterface(second, haze.alpha, wo, mu, multipleScattering), haze.weight);
+  };
+  const face = interfaceOf(p);
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   // From inside nothing opaque lies beyond it.
-  const uncoated = prepareInterface(
-    inside ? { ...outer, transmission_weight: 1 } : outer,
-    alpha,
-    wo,
-    mu,
-    multipleScattering,
-  );
+  const uncoated = interfaceOf(inside ? { ...outer, transmission_weight: 1 } : outer);
   const filmed = filmChange(film, (1 + face.epsilon) / (1 - face.epsilon), face.albedo, alpha, wo);
   const clear = inside
     ? filmChange(film, (1 + uncoated.epsilon) / (1 - uncoated.epsilon), uncoated.albedo, alpha, wo)
     : filmed;
-  const transmission = prepareTransmission(
+  const through = prepareTransmission(
     outer,
     face,
     uncoated,
@@ -203,11 +218,13 @@ export function prepareBsdf(
     inside,
     multipleScattering,
   );
+  const transmission = isHazy && through.thin ? mixThin(through, haze, wo, mu, multipleScattering) : through;
   const subsurface = prepareThinSubsurface(p, insulator * (1 - face.albedo));
   const scale = rgb((i) => insulator * (1 - transmission.share) * tint[i]);
   const specular = rgb(
     (i) =>
-      p.base_metalness * typical[i] * (1 - lost) +
+      metal.albedo[i] +
+      hazyMetal.albedo[i] +
       scale[i] * Math.max(face.albedo - face.multiscatter + filmed.more[i], 0) +
       transmission.reflectionAlbedo[i],
   );
@@ -216,7 +233,8 @@ export function prepareBsdf(
     insulator * p.base_weight * (1 - p.transmission_weight) * (1 - p.subsurface_weight) * (1 - face.albedo);
   const spread = rgb(
     (i) =>
-      metalMultiscatter[i] +
+      metal.multiscatter[i] +
+      hazyMetal.multiscatter[i] +
       dielectricMultiscatter[i] +
       (diffuse * p.base_color[i] + subsurface.back * subsurface.color[i]) * filmed.pass[i],
   );
@@ -224,14 +242,15 @@ export function prepareBsdf(
   const down = sum(beneath);
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
-  const reflected = stretchedAlbedoMean(
-    face.epsilon,
-    alpha,
-    roughness,
-    face.summed && isOverOpaque(p)
-      ? summedAlbedoMean(face.epsilon, roughness)
-      : energyAlbedoMean(face.epsilon, roughness),
-  );
+  const meanOf = (slopes: Slopes, r: number) =>
+    stretchedAlbedoMean(
+      face.epsilon,
+      slopes,
+      r,
+      face.summed && isOverOpaque(p) ? summedAlbedoMean(face.epsilon, r) : energyAlbedoMean(face.epsilon, r),
+    );
+  const first = meanOf(alpha, roughness);
+  const reflected = isHazy ? mix(first, meanOf(haze.alpha, haze.roughness), haze.weight) : first;
   const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected, face.epsilon);
   const even = diffuseEven(p.base_diffuse_roughness, reflected, face.epsilon);
   const coupling = (even * diffuseGain(grazing, mu)) / Math.max(1 - reflected, 1e-4);
@@ -263,8 +282,8 @@ export function prepareBsdf(
       specularWeight: weight,
       metalness: p.base_metalness,
       roughness,
-      multiscatter: metalMultiscatter,
-      meanLost,
+      multiscatter: metal.multiscatter,
+      meanLost: metal.meanLost,
       index,
     },
     dielectric: {
@@ -282,6 +301,13 @@ export function prepareBsdf(
     below: down > 0 ? down / (down + sum(spread)) : 0,
     coat,
     fuzz,
+    haze: {
+      ...haze,
+      bound: transmission.share > 0 ? 1 : haze.bound,
+      multiscatter: hazyMetal.multiscatter,
+      meanLost: hazyMetal.meanLost,
+    },
+    retroreflectivity: p.specular_retroreflectivity,
     fuzzProbability: fibres + covered > 0 ? fibres / (fibres + covered) : 0.5,
     coatProbability: total > 0 ? (3 * coat.albedo) / total : 0.5,
   };
@@ -339,15 +365,55 @@ function reflectionChance(b: Bsdf, { reflected, through }: ReturnType<typeof fac
 
 /** Cosine, and what the interface lets through on the way of the light to the diffuse lobe. */
 const diffusePass = (b: Bsdf, wi: OpenPbrVector): number =>
-  wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - interfaceAlbedo(b.dielectric, b.alpha, wi));
+  wi[2] * diffuseGain(b.diffuseGrazing, wi[2]) * (1 - albedoFrom(b, wi));
+
+/** Directional albedo of the interface for light from `wi`. */
+function albedoFrom({ dielectric, alpha, haze }: Bsdf, wi: OpenPbrVector): number {
+  const first = interfaceAlbedo(dielectric, alpha, wi);
+  if (haze.weight <= 0) return first;
+  return mix(first, interfaceAlbedo({ ...dielectric, roughness: haze.roughness }, haze.alpha, wi), haze.weight);
+}
 
 /** The facet that lets light through from `wi` to `wo`. */
 const throughHalf = ({ transmission: { thin, eta } }: Bsdf, wo: OpenPbrVector, wi: OpenPbrVector): OpenPbrVector =>
   thin ? halfVector(wo, [wi[0], wi[1], -wi[2]]) : refractHalf(eta, wo, wi);
 
-/** Densities of the delta lobes of the base and of the coat: {@link SPIKE} for those that were sampled, else 0. */
-type Spikes = readonly [base: number, coat: number];
-const NO_SPIKES: Spikes = [0, 0];
+/**
+ * Densities of the delta lobes of the base, of the coat and of retroreflection: {@link SPIKE} for those that were
+ * sampled, else 0.
+ */
+type Spikes = readonly [base: number, coat: number, back: number];
+const NO_SPIKES: Spikes = [0, 0, 0];
+
+/** Value without Fresnel's factor, and density, of one kind of facets or of both by their shares. */
+function bothKinds(
+  { alpha, haze }: Pick<Bsdf, 'alpha' | 'haze'>,
+  lobe: (slopes: Slopes, isHazy: boolean) => readonly [number, number],
+  [first, second]: readonly [Slopes, Slopes] = [alpha, haze.alpha],
+): readonly [value: number, density: number] {
+  const one = lobe(first, false);
+  if (haze.weight <= 0) return one;
+  const other = lobe(second, true);
+  return [mix(one[0], other[0], haze.weight), mix(one[1], other[1], haze.weight)];
+}
+
+/** What a facet reflects; the density is without the probability of sampling facets. */
+function reflectedBy(
+  b: Bsdf,
+  wo: OpenPbrVector,
+  wi: OpenPbrVector,
+  h: OpenPbrVector,
+  spike: number,
+): { f: OpenPbrColor; pdf: number } {
+  const [value, density] = bothKinds(b, (slopes, isHazy) =>
+    isSmooth(slopes) ? [spike, spike] : ggx(slopes, wo, wi, h, isHazy ? b.haze.bound : b.bound),
+  );
+  const sides = facet(b, clamp(dot(wo, h), 0, 1));
+  return {
+    f: rgb((i) => value * sides.reflected[i]),
+    pdf: b.specularProbability * reflectionChance(b, sides) * density,
+  };
+}
 
 /** `scatter` for directions on the other side. */
 function scatterThrough(
@@ -361,11 +427,16 @@ function scatterThrough(
   const { transmission } = b;
   const c = clamp(dot(wo, h), 0, 1);
   const alpha = transmission.thin ? transmission.thinAlpha : b.alpha;
-  const [value, density] = isSmooth(alpha)
-    ? [spikes[0], spikes[0]]
-    : transmission.thin
-      ? ggx(alpha, wo, [wi[0], wi[1], -wi[2]], h)
-      : refractGgx(transmission.eta, alpha, wo, wi, h);
+  const [value, density] = bothKinds(
+    b,
+    (slopes) =>
+      isSmooth(slopes)
+        ? [spikes[0], spikes[0]]
+        : transmission.thin
+          ? ggx(slopes, wo, [wi[0], wi[1], -wi[2]], h)
+          : refractGgx(transmission.eta, slopes, wo, wi, h),
+    [alpha, hazeThrough(transmission, b.haze)],
+  );
   const sides = facet(b, c);
   const coat = coatThrough(b.coat, transmission.exit, -wi[2]);
   const cosine = -wi[2] / Math.PI;
@@ -391,14 +462,25 @@ function scatter(
   wi: OpenPbrVector,
   h: OpenPbrVector,
   spikes: Spikes,
+  backH?: OpenPbrVector,
 ): { f: OpenPbrColor; pdf: number } {
   if (wi[2] < 0) return scatterThrough(b, wo, wi, h, spikes);
   if (Math.min(wo[2], wi[2]) <= 0) return { f: [0, 0, 0], pdf: 0 };
   const c = clamp(dot(wo, h), 0, 1);
-  const [value, density] = isSmooth(b.alpha) ? [spikes[0], spikes[0]] : ggx(b.alpha, wo, wi, h, b.bound);
-  const sides = facet(b, c);
+  let light = reflectedBy(b, wo, wi, h, spikes[0]);
+  const share = b.retroreflectivity;
+  if (share > 0) {
+    const back = turned(wi);
+    const returned = reflectedBy(b, wo, back, backH ?? halfVector(wo, back), spikes[2]);
+    const { f, pdf } = light;
+    light = { f: rgb((i) => mix(f[i], returned.f[i], share)), pdf: mix(pdf, returned.pdf, share) };
+  }
   const through = b.diffuseScale > 0 || b.subsurface.back > 0 ? diffusePass(b, wi) : 0;
   const metalLobe = (conductorLoss(b.alpha, b.metal.roughness, wi, wi[2]) / b.metal.meanLost / Math.PI) * wi[2];
+  const hazyLobe =
+    b.haze.weight > 0
+      ? (conductorLoss(b.haze.alpha, b.haze.roughness, wi, wi[2]) / b.haze.meanLost / Math.PI) * wi[2]
+      : 0;
   const diffuse = eon(b.diffuseColor, b.diffuseRoughness, wo, wi);
   const thinDiffuse = eon(b.subsurface.color, b.diffuseRoughness, wo, wi);
   const { frame } = b.coat;
@@ -411,15 +493,14 @@ function scatter(
       : [0, 0];
   const mirrored = b.coat.scale * fresnelDielectric(b.coat.eta, c) * top;
   const fibres = fuzzDensity(b.fuzz, wi);
-  const basePdf =
-    b.specularProbability * reflectionChance(b, sides) * density +
-    ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
+  const basePdf = light.pdf + ((1 - b.specularProbability) * (1 - b.below) * wi[2]) / Math.PI;
   return {
     f: rgb(
       (i) =>
-        (value * sides.reflected[i] +
+        (light.f[i] +
           (b.dielectric.multiscatter[i] * wi[2]) / Math.PI +
           metalLobe * b.metal.multiscatter[i] +
+          hazyLobe * b.haze.multiscatter[i] +
           through * b.filmPass[i] * (b.diffuseScale * diffuse[i] + b.subsurface.back * thinDiffuse[i])) *
           pass[i] *
           b.fuzz.below +
@@ -457,6 +538,7 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
   let transmitted = false;
   let medium = 1;
   let spikes = NO_SPIKES;
+  let backH: OpenPbrVector | undefined;
   const top = u[2] < b.coatProbability;
   const chosen = u[2] - b.coatProbability;
   const limit = (1 - b.coatProbability) * b.specularProbability;
@@ -464,14 +546,27 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     wi = fuzzSample(b.fuzz, u);
     h = halfVector(wo, wi);
   } else if (top || chosen < limit) {
-    const side = chosen / limit;
+    const { haze } = b;
+    const number = chosen / limit;
+    const isHazy = !top && number < haze.weight;
+    const side =
+      top || haze.weight <= 0
+        ? number
+        : isHazy
+          ? number / haze.weight
+          : (number - haze.weight) / Math.max(1 - haze.weight, 1e-7);
     const { thin, thinAlpha, eta } = b.transmission;
     const { frame } = b.coat;
-    const alpha = top ? b.coat.alpha : thin && side >= b.thinChance ? thinAlpha : b.alpha;
-    h = top ? outOfCoat(frame, ggxSample(alpha, inCoat(frame, wo), u, b.coat.bound)) : ggxSample(alpha, wo, u, b.bound);
+    const kind = isHazy
+      ? { alpha: haze.alpha, thinAlpha: hazeThrough(b.transmission, haze), bound: haze.bound }
+      : { alpha: b.alpha, thinAlpha, bound: b.bound };
+    const alpha = top ? b.coat.alpha : thin && side >= b.thinChance ? kind.thinAlpha : kind.alpha;
+    h = top
+      ? outOfCoat(frame, ggxSample(alpha, inCoat(frame, wo), u, b.coat.bound))
+      : ggxSample(alpha, wo, u, kind.bound);
     // Where both have one normal, deltas of the coat and the base are one direction.
     const isOne = !frame || Math.fround(frame[2][2]) >= 1;
-    if (isSmooth(alpha)) spikes = [isOne || !top ? SPIKE : 0, isOne || top ? SPIKE : 0];
+    if (isSmooth(alpha)) spikes = [isOne || !top ? SPIKE : 0, isOne || top ? SPIKE : 0, 0];
     const c = dot(wo, h);
     wi = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
     const chance = reflectionChance(b, facet(b, clamp(c, 0, 1)));
@@ -481,6 +576,13 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     // A facet may reflect downwards or refract upwards, and downwards of the coat is not that of the base: lost.
     if (transmitted !== wi[2] < 0 || (top && inCoat(frame, wi)[2] <= 0))
       return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
+    // Of those that reflect, some return.
+    if (!top && !transmitted && side < chance * b.retroreflectivity) {
+      wi = turned(wi);
+      backH = h;
+      h = halfVector(wo, wi);
+      spikes = [0, 0, isSmooth(alpha) ? SPIKE : 0];
+    }
   } else {
     wi = cosineSample(u);
     const down = b.below * (1 - b.coatProbability - limit);
@@ -489,7 +591,7 @@ export function sampleBsdf(b: Bsdf, wo: OpenPbrVector, numbers: readonly [number
     if (transmitted) wi = [wi[0], wi[1], -wi[2]];
     h = transmitted ? throughHalf(b, wo, wi) : halfVector(wo, wi);
   }
-  const { f, pdf } = scatter(b, wo, wi, h, spikes);
+  const { f, pdf } = scatter(b, wo, wi, h, spikes, backH);
   if (!(pdf > 0)) return { wi, pdf: 0, weight: [0, 0, 0], valid: false, transmitted, subsurface: false };
   const { subsurface: part, subsurfaceChance: enters } = b.transmission;
   const subsurface = transmitted && medium < enters;

@@ -45,6 +45,14 @@ export interface Transmission {
 
 const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 
+/** How much smoother a thin wall is for the light that it lets through: a factor on the roughness. */
+export const thinNarrowing = (eta: number): number => clamp(0.65 * Math.max(eta, 1 / eta) - 0.35, 0, 1);
+
+export const narrowedSlopes = ([x, y]: Slopes, narrowing: number): Slopes => [
+  Math.max(x * narrowing ** 2, 1e-4),
+  Math.max(y * narrowing ** 2, 1e-4),
+];
+
 /** What {@link prepareTransmission} needs to know of an interface. */
 interface Interface {
   readonly epsilon: number;
@@ -116,7 +124,7 @@ export function prepareTransmission(
     const share = clamp(face.albedo + film.more[i], 0, 1);
     return (2 * share) / (1 + share);
   });
-  const narrowing = clamp(0.65 * Math.max(eta, 1 / eta) - 0.35, 0, 1);
+  const narrowing = thinNarrowing(eta);
   const path = 1 / Math.sqrt(Math.max(1 - (1 - mu * mu) / (eta * eta), 1e-4));
   const lostBy = (roughness: number): number => (multipleScattering ? conductorLoss(alpha, roughness, wo, mu) : 0);
   const reflection = rgb((i) => amount * reflected[i] * outer.specular_color[i]);
@@ -135,7 +143,7 @@ export function prepareTransmission(
     multiscatter: rgb((i) => color[i] * colorLost),
     exit,
     thin,
-    thinAlpha: [Math.max(alpha[0] * narrowing ** 2, 1e-4), Math.max(alpha[1] * narrowing ** 2, 1e-4)],
+    thinAlpha: narrowedSlopes(alpha, narrowing),
     reflection,
     reflectionAlbedo: rgb((i) => reflection[i] * (1 - reflectedLost)),
     reflectionMultiscatter: rgb((i) => reflection[i] * reflectedLost),

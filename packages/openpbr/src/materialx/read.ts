@@ -18,7 +18,8 @@ export interface ReadMaterialXOptions {
   readonly limits?: MaterialXLimits;
   /**
    * The version of OpenPBR that the document's surfaces are written in. Default `1.1.1`. With `1.2`, the draft, they are
-   * converted as `fromOpenPbr12` of `@glanz/openpbr/versions` does; warnings name what 1.1.1 cannot have.
+   * converted as `fromOpenPbr12` of `@glanz/openpbr/versions` does; warnings name what is not drawn. The inputs of haze
+   * and retroreflectivity are read in either version.
    */
   readonly openPbr?: '1.1.1' | '1.2';
   /** Colour space of colours whose document names none. Default `acescg`, as the OpenPBR specification has it. */
@@ -112,6 +113,8 @@ function take(name: SurfaceName, given: Expression, parameters: SurfaceValues, t
       throw new Unsupported('has the wrong number of components');
     parameters[name] = type === 'boolean' ? value.values[0] !== 0 : width === 1 ? value.values[0] : value.values;
   } else if (value.kind === 'texture' && type !== 'boolean') {
+    if (OPENPBR_PARAMETER_SPECS[name as OpenPbrParameterName]?.texturable === false)
+      throw new Unsupported('is an image');
     const spread = (values: readonly number[]) =>
       values.length === width ? values : Array.from({ length: width }, () => values[0] as number);
     const { value: factor, range } = product(spread(value.scale), spread(value.offset));

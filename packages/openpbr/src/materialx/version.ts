@@ -2,13 +2,8 @@ import type { OpenPbrParameterName } from '../parameters/index';
 import { fromOpenPbr12, type OpenPbr12Parameters } from '../versions/from-1-2';
 import type { MaterialXTexture } from './material';
 
-/** Inputs that the draft of OpenPBR 1.2 adds; all of them are numbers. */
-export const DRAFT_INPUTS = {
-  emission_weight: true,
-  specular_haze: true,
-  specular_haze_spread: true,
-  specular_retroreflectivity: true,
-} as const;
+/** Inputs of the draft of OpenPBR 1.2 that become others; all of them are numbers. */
+export const DRAFT_INPUTS = { emission_weight: true } as const;
 
 /** An input of a surface, of either version. */
 export type SurfaceName = OpenPbrParameterName | keyof typeof DRAFT_INPUTS;
@@ -39,11 +34,7 @@ export function fromDraft(raw: SurfaceValues, textures: SurfaceTextures, report:
     delete textures.transmission_scatter;
   }
   const { parameters, lost } = fromOpenPbr12(raw as OpenPbr12Parameters);
-  for (const { parameter, reason } of lost) {
-    report(`${parameter}: ${reason}.`);
-    if (Object.hasOwn(DRAFT_INPUTS, parameter)) delete textures[parameter];
-  }
-  delete textures.specular_haze_spread;
+  for (const { parameter, reason } of lost) report(`${parameter}: ${reason}.`);
   for (const name of Object.keys(raw) as SurfaceName[]) delete raw[name];
   Object.assign(raw, parameters);
 }

@@ -174,10 +174,10 @@ export function writeMaterialX(materials: readonly MaterialXMaterial[]): Written
       nodes = '',
       outputs = '';
     for (const parameter of OPENPBR_PARAMETER_NAMES) {
-      const { type, default: initial } = OPENPBR_PARAMETER_SPECS[parameter];
+      const { type, default: initial, texturable } = OPENPBR_PARAMETER_SPECS[parameter];
       const value = parameters[parameter] ?? initial;
       const texture = textures[parameter];
-      if (texture && type !== 'boolean' && !parameter.endsWith('tangent')) {
+      if (texture && texturable && !parameter.endsWith('tangent')) {
         const {
           text,
           last,

@@ -20,7 +20,11 @@ interface Options {
   readonly soft?: Range;
   readonly unit?: OpenPbrUnit;
   readonly uniform?: boolean;
+  readonly draft?: boolean;
 }
+
+/** No texture drives them: they share a word of the material's record. */
+const DRAFT: Options = { uniform: true, draft: true };
 
 function entry<Name extends OpenPbrParameterName>(
   group: OpenPbrGroup,
@@ -28,7 +32,7 @@ function entry<Name extends OpenPbrParameterName>(
   type: OpenPbrParameterType,
   initial: OpenPbrParameters[Name],
   range: Range | undefined,
-  { soft, unit = '1', uniform = false }: Options = {},
+  { soft, unit = '1', uniform = false, draft = false }: Options = {},
 ): OpenPbrParameterSpec<Name> {
   const value = Array.isArray(initial) ? (Object.freeze(initial) as unknown as OpenPbrParameters[Name]) : initial;
   return Object.freeze({
@@ -39,6 +43,7 @@ function entry<Name extends OpenPbrParameterName>(
     unit,
     group,
     texturable: !uniform,
+    ...(draft ? { draft } : {}),
   });
 }
 
@@ -53,6 +58,9 @@ const table = (): Specs => ({
   specular_roughness: entry('specular', 'specular_roughness', 'float', 0.3, UNIT),
   specular_roughness_anisotropy: entry('specular', 'specular_roughness_anisotropy', 'float', 0, UNIT),
   specular_ior: entry('specular', 'specular_ior', 'float', 1.5, ABOVE_ZERO, { soft: [1, 3] }),
+  specular_haze: entry('specular', 'specular_haze', 'float', 0, UNIT, DRAFT),
+  specular_haze_spread: entry('specular', 'specular_haze_spread', 'float', 0.3, UNIT, DRAFT),
+  specular_retroreflectivity: entry('specular', 'specular_retroreflectivity', 'float', 0, UNIT, DRAFT),
   transmission_weight: entry('transmission', 'transmission_weight', 'float', 0, UNIT),
   transmission_color: entry('transmission', 'transmission_color', 'color3', [1, 1, 1], UNIT),
   transmission_depth: entry('transmission', 'transmission_depth', 'float', 0, POSITIVE, { soft: UNIT, unit: 'length' }),
@@ -95,8 +103,8 @@ const table = (): Specs => ({
 });
 
 /**
- * The parameters of OpenPBR Surface 1.1.1 as data, in the specification's order: `OPENPBR_PARAMETERS` without its texts,
- * which weigh as much as everything else in it.
+ * The parameters of OpenPBR Surface 1.1.1 and three of the draft of 1.2 (`draft`) as data, in the specification's order:
+ * `OPENPBR_PARAMETERS` without its texts, which weigh as much as everything else in it.
  */
 export const OPENPBR_PARAMETER_SPECS: Specs = /* @__PURE__ */ Object.freeze(/* @__PURE__ */ table());
 

@@ -13,6 +13,12 @@ export const texts: Readonly<Record<OpenPbrParameterName, string>> = {
   specular_roughness: 'Perceptual roughness of the base; its square is the GGX slope. 0 is a mirror.',
   specular_roughness_anisotropy: 'Stretches the highlight across the tangent: 0 is round, 1 a line.',
   specular_ior: 'Index of refraction of the dielectric base.',
+  specular_haze:
+    "Of the draft of 1.2: share of the base's facets that are rougher, as `specular_haze_spread` says: a halo around the highlight.",
+  specular_haze_spread:
+    'Of the draft of 1.2: how rough the facets of `specular_haze` are, from `specular_roughness` (0) to 1 (1).',
+  specular_retroreflectivity:
+    "Of the draft of 1.2: share of the base's reflection that returns towards the light, as from reflective tape.",
   transmission_weight: 'Mix from opaque (0) to transparent (1) dielectric.',
   transmission_color:
     'Colour of light that went straight through `transmission_depth` of the interior; with depth 0 a tint at every crossing of the surface.',

@@ -5,7 +5,7 @@ export type OpenPbrColor = readonly [r: number, g: number, b: number];
 export type OpenPbrVector = readonly [x: number, y: number, z: number];
 
 /**
- * Every parameter of OpenPBR Surface 1.1.1, under the specification's names. Colours are linear with Rec.709/sRGB
+ * Every parameter of OpenPBR Surface 1.1.1, and three of the draft of 1.2, under the specification's names. Colours are linear with Rec.709/sRGB
  * primaries (the specification's own examples are in ACEScg), lengths are metres unless the parameter says otherwise.
  * The same text, with ranges and defaults, is data in {@link OPENPBR_PARAMETERS}.
  */
@@ -31,6 +31,15 @@ export interface OpenPbrParameters {
   readonly specular_roughness_anisotropy: number;
   /** Index of refraction of the dielectric base. */
   readonly specular_ior: number;
+  /**
+   * Of the draft of 1.2: share of the base's facets that are rougher, as `specular_haze_spread` says: a halo around the
+   * highlight.
+   */
+  readonly specular_haze: number;
+  /** Of the draft of 1.2: how rough the facets of `specular_haze` are, from `specular_roughness` (0) to 1 (1). */
+  readonly specular_haze_spread: number;
+  /** Of the draft of 1.2: share of the base's reflection that returns towards the light, as from reflective tape. */
+  readonly specular_retroreflectivity: number;
   /** Mix from opaque (0) to transparent (1) dielectric. */
   readonly transmission_weight: number;
   /**
@@ -144,8 +153,10 @@ export interface OpenPbrParameterSpec<Name extends OpenPbrParameterName = OpenPb
   readonly softRange?: readonly [min: number, max: number];
   readonly unit: OpenPbrUnit;
   readonly group: OpenPbrGroup;
-  /** Whether the specification lets it vary over the surface. */
+  /** Whether a texture may drive it. */
   readonly texturable: boolean;
+  /** True for those of the draft of OpenPBR 1.2; absent for those of 1.1.1. */
+  readonly draft?: boolean;
 }
 
 /** What is known of one parameter. */

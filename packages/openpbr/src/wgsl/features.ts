@@ -55,6 +55,12 @@ export interface OpenPbrFlags {
   /** EON instead of Lambert. */
   readonly OPENPBR_DIFFUSE_ROUGHNESS: boolean;
   readonly OPENPBR_ANISOTROPY: boolean;
+  /** Of the draft of 1.2: facets of a second roughness; comes with OPENPBR_METAL or OPENPBR_DIELECTRIC. */
+  readonly OPENPBR_HAZE: boolean;
+  /** Of the draft of 1.2: reflection that returns; comes with OPENPBR_METAL or OPENPBR_DIELECTRIC. */
+  readonly OPENPBR_RETROREFLECTION: boolean;
+  /** OPENPBR_HAZE or OPENPBR_RETROREFLECTION. */
+  readonly OPENPBR_LOBES: boolean;
   /** Compensation of the energy that single scattering between microfacets loses. */
   readonly OPENPBR_MULTISCATTER: boolean;
   readonly OPENPBR_EMISSION: boolean;
@@ -128,6 +134,9 @@ export function requiredFeatures(
   const stretched =
     specular &&
     all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0));
+  const base = metal || dielectric;
+  const haze = base && all.some((p) => p.specular_haze > 0);
+  const retroreflection = base && all.some((p) => p.specular_retroreflectivity > 0);
   return {
     OPENPBR_SPECULAR: specular,
     OPENPBR_METAL: metal,
@@ -145,13 +154,16 @@ export function requiredFeatures(
     OPENPBR_THIN_WALLED: thin,
     OPENPBR_LOSSES: metal || thin || inner,
     OPENPBR_COAT: coat,
-    OPENPBR_THIN_FILM: (metal || dielectric) && all.some(film),
+    OPENPBR_THIN_FILM: base && all.some(film),
     OPENPBR_FUZZ: fuzz,
     OPENPBR_LAYERED: coat || fuzz,
     OPENPBR_DIFFUSE: lambert,
-    OPENPBR_COSINE: lambert || ((metal || dielectric) && multipleScattering),
+    OPENPBR_COSINE: lambert || (base && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: diffuse && solid.some((p) => p.base_diffuse_roughness > 0),
     OPENPBR_ANISOTROPY: stretched,
+    OPENPBR_HAZE: haze,
+    OPENPBR_RETROREFLECTION: retroreflection,
+    OPENPBR_LOBES: haze || retroreflection,
     OPENPBR_MULTISCATTER: multipleScattering,
     OPENPBR_EMISSION: all.some((p) => p.emission_luminance > 0),
   };

@@ -100,6 +100,12 @@ export class KernelCache {
       parts = { root: (await import('./film-kernels')).FILM_KERNELS[name] };
     if (name === 'shade' && features.flags.GUIDE) parts = (await import('./guide-kernels')).GUIDED_SHADE;
     if (name === 'shade' && features.flags.SHADOW_SOFTNESS) parts = (await import('./soft-shadows')).softened(parts);
+    const { OPENPBR_LOBES, DELTA_TRANSMISSION } = features.flags;
+    // The kernels that compose the surface.
+    if (OPENPBR_LOBES && (name === 'shade' || (name === 'connect' && DELTA_TRANSMISSION))) {
+      const { openpbrLobes } = await import('@glanz/openpbr/lobes');
+      parts = { ...parts, host: [...(parts?.host ?? []), openpbrLobes] };
+    }
     const { pages } = features;
     if (pages) parts = (await import('./paged-kernels')).pagedKernel(this.#device, pages, parts);
     const source = kernelSource(name, features, parts);

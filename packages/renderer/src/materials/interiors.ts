@@ -43,6 +43,7 @@ export function transmitsByDelta(material: Material): boolean {
     p.transmission_weight > 0 &&
     p.subsurface_weight === 0 &&
     p.specular_roughness <= SMOOTH &&
+    p.specular_haze === 0 &&
     (p.base_metalness < 1 || textures?.base_metalness !== undefined)
   );
 }

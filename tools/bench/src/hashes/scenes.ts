@@ -90,6 +90,8 @@ const MATERIALS: readonly HashCase[] = [
   material('metal', { base_metalness: 1, base_color: [0.9, 0.6, 0.3], specular_roughness: 0.4 }),
   material('stretched metal', { base_metalness: 1, specular_roughness: 0.5, specular_roughness_anisotropy: 0.8 }),
   material('stretched gloss', { specular_roughness: 0.5, specular_roughness_anisotropy: 0.6, coat_weight: 0.5 }),
+  material('haze on metal', { base_metalness: 1, specular_roughness: 0, specular_haze: 0.4 }),
+  material('retroreflection below a coat', { specular_retroreflectivity: 0.7, coat_weight: 0.5, specular_haze: 0.2 }),
   material('coat', { coat_weight: 1, coat_color: [0.9, 0.5, 0.4], coat_roughness: 0.2 }),
   {
     name: 'material coat with its own normal',
@@ -120,6 +122,7 @@ const MATERIALS: readonly HashCase[] = [
     coat_ior: 0.9,
   }),
   material('dispersion', { ...glass, transmission_dispersion_scale: 1, transmission_dispersion_abbe_number: 20 }),
+  material('hazy glass', { ...glass, specular_haze: 0.5, specular_haze_spread: 0.5, specular_retroreflectivity: 0.2 }),
   material('milk', {
     ...glass,
     transmission_depth: 0.5,

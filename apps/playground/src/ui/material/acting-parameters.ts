@@ -30,6 +30,10 @@ export function actingParameters(): ReadonlySet<OpenPbrParameterName> {
   const text = textOf([openpbr, openpbrEmission, openpbrOpacity]);
   const names = Object.keys(OPENPBR_PARAMETER_SPECS) as OpenPbrParameterName[];
   return new Set(
-    names.filter((name) => OPENPBR_PARAMETER_SPECS[name].type === 'vector3' || new RegExp(`\\.${name}\\b`).test(text)),
+    names.filter((name) => {
+      const { type, draft } = OPENPBR_PARAMETER_SPECS[name];
+      // The lobes of the draft are a module of their own.
+      return type === 'vector3' || draft === true || new RegExp(`\\.${name}\\b`).test(text);
+    }),
   );
 }
