@@ -3,6 +3,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { FolderStore, startFarmWorker } from '@glanz/farm';
 import { findRedis, startRedis } from '@glanz/redis';
+import sharp from 'sharp';
 import { expect, it, onTestFinished } from 'vitest';
 import { runCli } from '../src/index';
 import { fakeBackend, fakeIo, temporaryFolder } from './fakes';
@@ -36,6 +37,15 @@ it.skipIf(found.missing !== undefined)(
     const { url } = JSON.parse(io.out[0]!) as { url: string };
     expect(new URL(url).hostname).toBe('127.0.0.1');
     expect(await (await fetch(`${url}status.json`)).json()).toMatchObject({ status: { waiting: 3 }, recent: [] });
+    // A result that the store has, and its thumbnail.
+    const store = new FolderStore(join(cwd, '.glanz-farm'));
+    const id = 'a'.repeat(40);
+    const folder = await store.begin(id);
+    const image = sharp({ create: { width: 1000, height: 500, channels: 3, background: 'red' } });
+    await image.png().toFile(join(folder, '0.png'));
+    await store.commit(folder, { id, label: 'a', seconds: 1, worker: 'w', finished: '' }, ['0.png']);
+    const thumbnail = await (await fetch(`${url}thumbnail/${id}/0`)).arrayBuffer();
+    expect(await sharp(Buffer.from(thumbnail)).metadata()).toMatchObject({ format: 'png', width: 400, height: 200 });
     const { port } = new URL(url);
     expect(await run('serve', '--port', port)).toMatchObject({ code: 2, err: expect.stringMatching(/\[cli\/port\]/) });
     io.interrupt();
