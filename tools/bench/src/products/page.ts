@@ -72,7 +72,12 @@ export function writeProductPage(
 ): string[] {
   const [page, data] = [join(folder, 'products.md'), join(folder, 'products.json')];
   writeFileSync(page, productPage(reports, mean));
-  const [{ machine, gpu, settings } = {}] = reports;
-  writeFileSync(data, `${JSON.stringify({ benchmark: 'products', machine, gpu, settings, figures }, null, 1)}\n`);
+  const [{ machine, gpu } = {}] = reports;
+  const titles = Object.assign({}, ...reports.map(({ settings }) => settings.titles)) as Record<string, string>;
+  const settings = { ...reports[0]?.settings, titles };
+  // With the measurements, so that later reports can be joined with them.
+  const details = joinedMeasurements(reports);
+  const report = { benchmark: 'products', machine, gpu, settings, figures, notes: [], details };
+  writeFileSync(data, `${JSON.stringify(report, null, 1)}\n`);
   return [page, data];
 }
