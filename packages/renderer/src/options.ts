@@ -343,7 +343,8 @@ export interface RenderOptions {
   readonly signal?: AbortSignal;
   /**
    * Milliseconds of GPU time that one submission should take at most, 0.1 to 10,000. Default 16, one frame at 60 Hz: a
-   * page stays responsive, and no watchdog fires.
+   * page stays responsive, and no watchdog fires. Where the ends of long paths take most of a submission, as in thick
+   * glass on a fast GPU, up to three times as long, so that samples share them.
    */
   readonly maxSubmitMs?: number;
 }

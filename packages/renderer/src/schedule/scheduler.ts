@@ -20,6 +20,9 @@ export interface SchedulerOptions {
 /** No submission is smaller than this many paths, or launch costs would dominate. */
 const SMALLEST = 4096;
 
+/** Budgets that a batch may take where that shares more of what every batch costs. */
+const LONGEST = 3;
+
 /**
  * Splits the work into submissions by measured time: grows up to fourfold while the budget allows, falls back to a
  * quarter after one that took too long. The image does not depend on the split.
@@ -106,14 +109,16 @@ export class Scheduler {
     const paths = batch.pixelCount * batch.sampleCount;
     const cost = this.#cost;
     cost.measured(paths, milliseconds);
-    // What every batch costs, however small, must not take most of the time.
-    const budget = Math.max(this.budget, 3 * cost.fixed);
+    // What every batch costs, however small, must not take most of the time: long paths through glass leave the GPU
+    // idle at their end, and samples that are traced together share that.
+    const budget = Math.max(this.budget, 3 * cost.fixed, Math.min(6 * cost.fixed, LONGEST * this.budget));
     if (milliseconds > budget * 1.5) {
       const factor = Math.max(0.25, (0.8 * budget) / milliseconds);
       this.#paths = Math.min(this.#capacity, Math.max(SMALLEST, Math.min(this.#paths, Math.floor(paths * factor))));
     } else if (milliseconds < budget * 0.7) {
-      // By the speed of this batch, which may have been smaller than allowed; larger ones are faster still.
-      const possible = (0.9 * budget * paths) / Math.max(milliseconds, 1e-3);
+      // By the speed of this batch, which may have been smaller than allowed.
+      const units = Math.max(milliseconds - cost.fixed, 0.1 * milliseconds, 1e-3);
+      const possible = ((0.9 * budget - Math.min(cost.fixed, 0.9 * milliseconds)) * paths) / units;
       // A band of sky is cheap, and the next one may cost what an earlier one did.
       const safe = cost.peak > 0 ? Math.max(0, 1.4 * budget - cost.fixed) / cost.peak : Infinity;
       if (Math.min(possible, safe) > this.#paths)

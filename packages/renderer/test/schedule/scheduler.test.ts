@@ -76,6 +76,17 @@ describe('Scheduler', () => {
     expect(sizes.at(-2)).toBeGreaterThan(1_000_000);
   });
 
+  it('traces samples together where the ends of long paths cost more than a sample', () => {
+    // Milliseconds of a perfume bottle on a fast GPU: 10 whatever the size, and 9 a sample.
+    const pixels = 512 * 512;
+    const { times } = simulate(pixels, 1 << 22, 16, 256, (paths) => 10 + (9 * paths) / pixels);
+    expect(times.reduce((sum, time) => sum + time, 0) / 256).toBeLessThan(14);
+    expect(Math.max(...times)).toBeLessThanOrEqual(3 * 16);
+    // Where launching costs little, submissions keep to their budget.
+    const plain = simulate(pixels, 1 << 22, 16, 256, (paths) => 1 + (3 * paths) / pixels).times;
+    expect(Math.max(...plain)).toBeLessThanOrEqual(16);
+  });
+
   it('does not take the rest of an image for its sky', () => {
     // Bands of rows: the upper half costs a tenth of the lower one.
     const scheduler = new Scheduler({ pixels: 256 * 256, capacity: 1 << 20, budgetMs: 16 });
