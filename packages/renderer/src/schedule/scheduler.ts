@@ -117,8 +117,8 @@ export class Scheduler {
       this.#paths = Math.min(this.#capacity, Math.max(SMALLEST, Math.min(this.#paths, Math.floor(paths * factor))));
     } else if (milliseconds < budget * 0.7) {
       // By the speed of this batch, which may have been smaller than allowed.
-      const units = Math.max(milliseconds - cost.fixed, 0.1 * milliseconds, 1e-3);
-      const possible = ((0.9 * budget - Math.min(cost.fixed, 0.9 * milliseconds)) * paths) / units;
+      const fixed = Math.min(cost.fixed, 0.9 * milliseconds);
+      const possible = ((0.9 * budget - fixed) * paths) / Math.max(milliseconds - fixed, 1e-3);
       // A band of sky is cheap, and the next one may cost what an earlier one did.
       const safe = cost.peak > 0 ? Math.max(0, 1.4 * budget - cost.fixed) / cost.peak : Infinity;
       if (Math.min(possible, safe) > this.#paths)
