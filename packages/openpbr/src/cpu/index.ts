@@ -1,15 +1,5 @@
-export {
-  albedoBsdf,
-  emittedRadiance,
-  evalBsdf,
-  evalPdfBsdf,
-  pdfBsdf,
-  prepareBsdf,
-  sampleBsdf,
-  type Bsdf,
-  type BsdfOptions,
-  type BsdfSample,
-} from './bsdf';
+export { albedoBsdf, emittedRadiance, evalBsdf, evalPdfBsdf, pdfBsdf, sampleBsdf, type BsdfSample } from './bsdf';
+export { prepareBsdf, type Bsdf, type BsdfOptions } from './prepare';
 export { coatDarkening, coatedBase, coatRoughening, coatTransmittance, type Coat, type CoatFrame } from './coat';
 export { stretchedEnergy } from './stretched';
 export { refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
