@@ -12,13 +12,24 @@ afterEach(() => expectNoGpuErrors());
 const SIZE = 8;
 
 /** Black quads one behind the other in front of a white environment. */
-async function veils(opacities: readonly number[], samples: number, options: Partial<PathTracerOptions> = {}) {
+async function veils(
+  opacities: readonly number[],
+  samples: number,
+  options: Partial<PathTracerOptions> = {},
+  shift = 0,
+) {
   const scene = createScene();
   opacities.forEach((opacity, i) =>
-    addQuad(scene, 4, -0.5 * i, {
-      name: `veil ${i}`,
-      parameters: { base_color: [0, 0, 0], specular_weight: 0, geometry_opacity: opacity },
-    }),
+    addQuad(
+      scene,
+      4,
+      -0.5 * i,
+      {
+        name: `veil ${i}`,
+        parameters: { base_color: [0, 0, 0], specular_weight: 0, geometry_opacity: opacity },
+      },
+      { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, shift, 0, 0, 1] },
+    ),
   );
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
   const tracer = await PathTracer.create(device, scene, {
@@ -55,6 +66,18 @@ describe('opacity', () => {
     // And not the same decision at each pixel: that would leave a half, or nothing.
     for (const value of pixels) expect(Math.abs(value - 0.25)).toBeLessThan(0.2);
   });
+
+  it.each(['sobol', 'blue-noise', 'independent'] as const)(
+    'is independent of where in the pixel a sample lies: %s',
+    async (sampler) => {
+      // The right edge of the quad, of its first triangle, divides a column of pixels.
+      const column = SIZE / 2;
+      const pixels = await veils([0.5], 64, { sampler, seed: 0 }, 1 / SIZE - 4);
+      const values = pixels.filter((_, i) => i % SIZE === column);
+      const mean = values.reduce((sum, value) => sum + value, 0) / SIZE;
+      expect(Math.abs(mean - 0.75)).toBeLessThan(4 * Math.sqrt((0.25 * 0.75) / (64 * SIZE)));
+    },
+  );
 
   it('is decided by other numbers with another seed', async () => {
     expect(await veils([0.3], 4, { seed: 1 })).not.toEqual(await veils([0.3], 4, { seed: 2 }));
