@@ -343,8 +343,9 @@ export interface RenderOptions {
   readonly signal?: AbortSignal;
   /**
    * Milliseconds of GPU time that one submission should take at most, 0.1 to 10,000. Default 16, one frame at 60 Hz: a
-   * page stays responsive, and no watchdog fires. Where the ends of long paths take most of a submission, as in thick
-   * glass on a fast GPU, up to three times as long, so that samples share them.
+   * page stays responsive, and no watchdog fires. What a submission takes whatever its size, as at the ends of long
+   * paths through thick glass, is shared by more samples: six times as long as that, up to three times this value; and
+   * three times as long as that where it alone takes longer.
    */
   readonly maxSubmitMs?: number;
 }

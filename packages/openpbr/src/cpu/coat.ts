@@ -3,9 +3,8 @@ import { interfaceEnergy } from './dielectric';
 import { energyAlbedo, fresnelMean } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxAlpha, ggxBound, viewRoughness, type Slopes } from './ggx';
-import { clamp, dot, length2, length3 } from './vector';
+import { clamp, dot, length2, length3, rgb } from './vector';
 
-const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 
 /** The coat seen from one direction; twin of the WGSL struct `OpenPbrCoat`. */

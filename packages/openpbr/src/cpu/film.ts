@@ -1,10 +1,9 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxSample, ggxMasking, ggxMaskingShadowing, type Slopes } from './ggx';
-import { clamp, dot, length2 } from './vector';
+import { clamp, dot, length2, rgb } from './vector';
 import { FILM_BANDS, type FilmBands } from '../tables/film';
 
-const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 
 /**

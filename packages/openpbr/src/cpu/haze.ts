@@ -4,8 +4,7 @@ import type { InterfaceEnergy } from './dielectric';
 import { conductorLoss } from './energy';
 import { ggxAlpha, ggxBound, type Slopes } from './ggx';
 import { narrowedSlopes, thinNarrowing, type Transmission } from './transmission';
-
-const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
+import { rgb } from './vector';
 
 /** Facets of a second roughness, `specular_haze`; twin of the WGSL struct `OpenPbrHaze`, which says what they do. */
 export interface Haze {

@@ -1,5 +1,5 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
-import { clamp, dot } from './vector';
+import { clamp, dot, rgb } from './vector';
 
 /** What fills an object, per unit of length; twin of the WGSL struct `OpenPbrMedium`. */
 export interface Medium {
@@ -10,8 +10,6 @@ export interface Medium {
   /** Henyey and Greenstein's g. */
   readonly anisotropy: number;
 }
-
-const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 
 /**
  * The interior of a transparent object (OpenPBR 1.1.1); twin of `openpbr_medium`. Zero for thin walls and for depth 0.

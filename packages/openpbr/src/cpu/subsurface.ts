@@ -2,9 +2,7 @@ import type { OpenPbrColor, OpenPbrParameters } from '../parameters/index';
 import { fresnelMean } from './energy';
 import { dielectricEpsilon } from './fresnel';
 import type { Medium } from './medium';
-import { clamp } from './vector';
-
-const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
+import { clamp, rgb } from './vector';
 
 /** The medium below a translucent surface; twin of `openpbr_subsurface_medium`. Zero for thin walls. */
 export function subsurfaceMedium(p: OpenPbrParameters): Medium {

@@ -3,7 +3,7 @@ import { conductorLoss } from './energy';
 import { dielectricEpsilon } from './fresnel';
 import type { FilmChange } from './film';
 import { ggxDistribution, ggxMasking, type Slopes } from './ggx';
-import { clamp, dot, normalize } from './vector';
+import { clamp, dot, normalize, rgb } from './vector';
 
 /** Where the viewer is; twin of the WGSL struct `OpenPbrSide`. */
 export interface BsdfSide {
@@ -42,8 +42,6 @@ export interface Transmission {
   readonly reflectionAlbedo: OpenPbrColor;
   readonly reflectionMultiscatter: OpenPbrColor;
 }
-
-const rgb = (channel: (i: 0 | 1 | 2) => number): OpenPbrColor => [channel(0), channel(1), channel(2)];
 
 /** How much smoother a thin wall is for the light that it lets through: a factor on the roughness. */
 export const thinNarrowing = (eta: number): number => clamp(0.65 * Math.max(eta, 1 / eta) - 0.35, 0, 1);

@@ -33,7 +33,7 @@ const RAISED_LIMITS = [
 const WELCOME_FEATURES = [
   'timestamp-query',
   'subgroups',
-  // Of @glanz/denoise.
+  // With it @glanz/denoise loads and stores halves directly.
   'shader-f16',
   'float32-filterable',
   'texture-compression-bc',

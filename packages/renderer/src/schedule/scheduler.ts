@@ -110,7 +110,7 @@ export class Scheduler {
     const cost = this.#cost;
     cost.measured(paths, milliseconds);
     // What every batch costs, however small, must not take most of the time: long paths through glass leave the GPU
-    // idle at their end, and samples that are traced together share that.
+    // nearly idle at their end, and samples that are traced together share that.
     const budget = Math.max(this.budget, 3 * cost.fixed, Math.min(6 * cost.fixed, LONGEST * this.budget));
     if (milliseconds > budget * 1.5) {
       const factor = Math.max(0.25, (0.8 * budget) / milliseconds);

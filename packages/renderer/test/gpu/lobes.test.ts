@@ -15,11 +15,11 @@ const SIZE = 8;
 const SAMPLES = 64;
 
 /** Mean of the image of a large surface, seen from above it and a little from the side. */
-async function mean(parameters: Material['parameters'], lamp = false): Promise<number> {
+async function mean(parameters: Material['parameters'], pointLight = false): Promise<number> {
   const scene = createScene();
   addQuad(scene, 50, 0, { name: 'subject', parameters });
   const [s, c] = [Math.sin(0.6), Math.cos(0.6)];
-  if (lamp) {
+  if (pointLight) {
     // Behind the camera alone, where its rays come from: nothing that is mirrored forward meets it.
     const emitter = { base_weight: 0, specular_weight: 0, emission_luminance: 1 };
     const transform = [c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 30 * s, 0, 30 * c, 1];

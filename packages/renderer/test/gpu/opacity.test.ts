@@ -1,4 +1,5 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import type { Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { addQuad, camera, createScene } from '../scenes';
@@ -17,6 +18,7 @@ async function veils(
   samples: number,
   options: Partial<PathTracerOptions> = {},
   shift = 0,
+  add: (scene: Scene) => void = () => undefined,
 ) {
   const scene = createScene();
   opacities.forEach((opacity, i) =>
@@ -31,6 +33,7 @@ async function veils(
       { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, shift, 0, 0, 1] },
     ),
   );
+  add(scene);
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
   const tracer = await PathTracer.create(device, scene, {
     width: SIZE,
@@ -80,7 +83,21 @@ describe('opacity', () => {
   );
 
   it('is decided by other numbers with another seed', async () => {
-    expect(await veils([0.3], 4, { seed: 1 })).not.toEqual(await veils([0.3], 4, { seed: 2 }));
+    const [first, second] = [await veils([0.3], 4, { seed: 1 }), await veils([0.3], 4, { seed: 2 })];
+    expect(first.filter((_, i) => !onDiagonal(i))).not.toEqual(second.filter((_, i) => !onDiagonal(i)));
+  });
+
+  it('is decided anew where a path meets the same triangle again', async () => {
+    // To a mirror and back to the light through one veil.
+    const pixels = await veils([0.5], 64, {}, 0, (scene) =>
+      addQuad(scene, 4, -1, {
+        name: 'mirror',
+        parameters: { base_metalness: 1, base_color: [1, 1, 1], specular_roughness: 0 },
+      }),
+    );
+    const values = pixels.filter((_, i) => !onDiagonal(i));
+    const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
+    expect(Math.abs(mean - 0.25)).toBeLessThan(4 * Math.sqrt((0.25 * 0.75) / (64 * values.length)));
   });
 
   it('is met on average by independent samples too', async () => {

@@ -85,6 +85,18 @@ describe('Scheduler', () => {
     // Where launching costs little, submissions keep to their budget.
     const plain = simulate(pixels, 1 << 22, 16, 256, (paths) => 1 + (3 * paths) / pixels).times;
     expect(Math.max(...plain)).toBeLessThanOrEqual(16);
+    // In between, and with times that vary by a tenth: no longer than six times that part, but for what is tolerated.
+    for (const fixed of [3, 5, 8]) {
+      const noisy = (turn: number) => 1 + 0.1 * Math.sin(7.3 * turn);
+      const { times: varied } = simulate(
+        pixels,
+        1 << 22,
+        16,
+        256,
+        (paths, turn) => (fixed + (5 * paths) / pixels) * noisy(turn),
+      );
+      expect(Math.max(...varied)).toBeLessThanOrEqual(1.5 * 1.1 * Math.max(16, 6 * fixed));
+    }
   });
 
   it('does not take the rest of an image for its sky', () => {

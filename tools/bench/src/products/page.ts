@@ -38,6 +38,7 @@ export function productPage(reports: readonly ProductReport[], mean: string): st
   const titles = Object.assign({}, ...reports.map(({ settings }) => settings.titles)) as Record<string, string>;
   const shown = [...new Set(all.map(({ product }) => product))];
   const notes = remarks(all);
+  const commits = [...new Set(reports.map(({ machine }) => machine.commit ?? 'unknown'))].join(', ');
   const gpus = [...new Set(reports.map(({ gpu }) => gpu?.name ?? 'unknown'))].join(', ');
   return `<!-- Written by npm run bench -- products --from FILE,FILE --pages FOLDER; do not edit. -->
 
@@ -54,7 +55,7 @@ Models of products in the light that they are shown in, rendered by Glanz and by
 - **References.** Long renders of Glanz in two halves with random numbers of their own, whose difference gives the stated error of the reference. A third render with another sampler checks the brightness.
 - **–** Not measured: three-gpu-pathtracer has no subsurface scattering, or the time of the measurement was over.
 
-Over all products and sizes the noise of three-gpu-pathtracer takes **${mean}×** as long, as a geometric mean. Measured on ${gpus}; another GPU of the host was at work meanwhile.
+Over all products and sizes the noise of three-gpu-pathtracer takes **${mean}×** as long, as a geometric mean. Measured on ${gpus} (commits ${commits}); another GPU of the host was at work meanwhile.
 
 ${productTable(all)}
 
@@ -77,7 +78,8 @@ export function writeProductPage(
   const settings = { ...reports[0]?.settings, titles };
   // With the measurements, so that later reports can be joined with them.
   const details = joinedMeasurements(reports);
-  const report = { benchmark: 'products', machine, gpu, settings, figures, notes: [], details };
+  const sources = reports.map(({ machine: { commit, date } }) => ({ commit, date }));
+  const report = { benchmark: 'products', machine, gpu, settings, sources, figures, notes: [], details };
   writeFileSync(data, `${JSON.stringify(report, null, 1)}\n`);
   return [page, data];
 }
