@@ -1,4 +1,4 @@
-import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
+import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { coatedBase } from './coat';
 import type { InterfaceEnergy } from './dielectric';
 import { conductorLoss } from './energy';
