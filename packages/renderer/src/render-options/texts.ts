@@ -25,7 +25,11 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     doc: 'Relative standard error at which a part of the image is finished: 0.05 is enough for a preview, noise of 0.01 is hardly visible. 0: no target.',
     softRange: [0, 0.1],
   },
-  maxSubmitMs: { doc: 'Maximum GPU time of one submission; in scenes with long paths up to three times as much.', unit: 'ms', softRange: [1, 100] },
+  maxSubmitMs: {
+    doc: 'Maximum GPU time of one submission; in scenes with long paths up to three times as much.',
+    unit: 'ms',
+    softRange: [1, 100],
+  },
   maxDepth: {
     doc: 'Maximum number of edges of a path from the camera to a light: 1 shows only emitters, 2 adds direct light.',
     softRange: [1, 16],

@@ -87,7 +87,7 @@ describe('opacity', () => {
     expect(first.filter((_, i) => !onDiagonal(i))).not.toEqual(second.filter((_, i) => !onDiagonal(i)));
   });
 
-  it('is decided anew where a path meets the same triangle again', async () => {
+  it('is decided again where a path comes back to the same triangle', async () => {
     // To a mirror and back to the light through one veil.
     const pixels = await veils([0.5], 64, {}, 0, (scene) =>
       addQuad(scene, 4, -1, {
