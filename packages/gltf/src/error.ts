@@ -12,8 +12,8 @@ export const oneLine = (text: string): string => {
  * `gltf/missing-resource` (a file that the document names does not exist), `gltf/unsupported-extension` (one that the
  * document requires), `gltf/missing-decoder` (an optional package is needed), `gltf/too-large` (more than the limits
  * allow), `gltf/no-such-part` (the requested scene or animation does not exist), `gltf/no-triangles` (nothing to
- * show), `gltf/ktx2` (from a KTX2 decoder: a load continues without the image), `gltf/worker` (the worker of
- * `loadGltfInWorker` cannot be started).
+ * show), `gltf/option` (an option is out of its range), `gltf/ktx2` (from a KTX2 decoder: a load continues without the
+ * image), `gltf/worker` (the worker of `loadGltfInWorker` cannot be started).
  */
 export class GltfError extends GlanzError {
   constructor(code: string, message: string, options: GlanzErrorOptions = {}) {

@@ -57,6 +57,10 @@ export async function inTurn<T>(of: FittedImages, bytes: number, run: () => Prom
   }
 }
 
+/** The error for a value of `imageBudgetMiB` that is no budget. */
+export const invalidBudget = (value: unknown): GltfError =>
+  new GltfError('gltf/option', `The option imageBudgetMiB is ${String(value)}; it must be a number above 0.`);
+
 /** Milliseconds between yields to the event loop. */
 const SLICE_MS = 8;
 

@@ -5,7 +5,8 @@ import type { FittedImage, FittedImages } from './fit-images';
 /** Bytes of images that are decoded without waiting for others. */
 const UNCHECKED_BYTES = 2 ** 28;
 
-const later = () => import('./fit-images');
+/** Few documents need it. */
+export const imageFitting = () => import('./fit-images');
 
 /**
  * The decoded images of a load, within a budget: as soon as they exceed it, the largest lose levels, so that those of a
@@ -26,7 +27,7 @@ export class HeldImages implements FittedImages {
 
   /** Runs what decodes and holds an image of so many bytes, once there is room for it. */
   async decode<T>(bytes: number, run: () => Promise<T>): Promise<T> {
-    return (this.#begun += bytes) > UNCHECKED_BYTES ? (await later()).inTurn(this, bytes, run) : run();
+    return (this.#begun += bytes) > UNCHECKED_BYTES ? (await imageFitting()).inTurn(this, bytes, run) : run();
   }
 
   /**
@@ -37,7 +38,7 @@ export class HeldImages implements FittedImages {
     const { width, height } = image;
     const held = { image, space, width, height, level: 0 };
     this.images.push(held);
-    if ((this.#decoded += 4 * width * height) > this.budget) await (await later()).fitImages(this);
+    if ((this.#decoded += 4 * width * height) > this.budget) await (await imageFitting()).fitImages(this);
     return held;
   }
 }

@@ -241,9 +241,9 @@ export class TextureTable {
     const read = (index: number) => this.readImage(index, decode, viewBytes, budget, held, signal);
     const shown = this.shownImages;
     // The first reads start synchronously, so that decoders work on their own threads while geometry is read here.
-    const decoding = new Map<number, Promise<FittedImage | undefined>>();
+    const decoding = new Map<number | undefined, Promise<FittedImage | undefined>>();
     for (const [at, index] of shown.entries()) {
-      const before = decoding.get(shown[at - MAX_CONCURRENT] ?? -1);
+      const before = decoding.get(shown[at - MAX_CONCURRENT]);
       // An error rejects the image's own promise only; the next image is still read.
       const promise = before
         ? before.then(
@@ -261,14 +261,18 @@ export class TextureTable {
         if (!decoded) this.failed.add(images.length);
         images.push({ name: this.#nameOf(entry.image), of: decoded ?? { image: white() } });
       } else {
-        const sources: DecodedImage[] = [];
-        for (const index of entry.sources)
-          sources.push((index === undefined ? undefined : await decoding.get(index))?.image ?? white());
-        const name = entry.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
-        const { derived } = entry;
         // Few documents need it.
         const { convertImage } = await import('./convert-image');
-        images.push({ name, of: await held.hold(await convertImage(sources, derived, signal), derived.colorSpace) });
+        const sources = await Promise.all(entry.sources.map((index) => decoding.get(index)));
+        const name = entry.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
+        const { derived } = entry;
+        // Pixels are read before the next await: from then on, an image may be reduced and its bitmap closed.
+        const made = convertImage(
+          sources.map((source) => source?.image ?? white()),
+          derived,
+          signal,
+        );
+        images.push({ name, of: await held.hold(await made, derived.colorSpace) });
       }
       onImage();
     }

@@ -9,7 +9,7 @@ import { openContainer } from './container';
 import { readDocument, type GltfDecoders } from './document';
 import { GltfError, oneLine } from './error';
 import { environmentOf, facesOf } from './image-light';
-import { HeldImages } from './held-images';
+import { HeldImages, imageFitting } from './held-images';
 import { TextureTable } from './images';
 import type { CompressedFormats, DecodedImage, ImageDecoder } from './decoded-image';
 import type { GltfAnimation, GltfJson, GltfMaterial } from './json';
@@ -62,11 +62,11 @@ export interface GltfOptions {
    */
   readonly partNodes?: boolean | undefined;
   /**
-   * MiB of decoded images that are held at a time, without the smaller levels that a renderer adds. Default 4096. Where
-   * the document has more, the largest images lose their largest levels as they are decoded: width and height are
-   * halved by the mean of 2 × 2 texels, of colours in linear light; compressed images lose stored levels and stay
-   * compressed. The warning `gltf/image-budget` has the numbers. Images are decoded 512 MiB at a time, a larger one
-   * alone.
+   * MiB of decoded images that are held at a time, without the smaller levels that a renderer adds; above 0, else
+   * `gltf/option` is thrown. Default 4096; `Infinity` is no budget. Where the document has more, the largest images lose
+   * their largest levels as they are decoded: width and height are halved by the mean of 2 × 2 texels, of colours in
+   * linear light; compressed images lose stored levels and stay compressed. The warning `gltf/image-budget` has the
+   * numbers. Images are decoded 512 MiB at a time, a larger one alone.
    */
   readonly imageBudgetMiB?: number | undefined;
   /** Limits on memory, instances and file size. */
@@ -112,8 +112,9 @@ export async function buildScene(
   source: Source,
   options: GltfOptions & { readonly decodeImage: ImageDecoder },
 ): Promise<Scene> {
-  const { signal, onProgress } = options;
+  const { signal, onProgress, imageBudgetMiB = 4096 } = options;
   signal?.throwIfAborted();
+  if (!(imageBudgetMiB > 0)) throw (await imageFitting()).invalidBudget(imageBudgetMiB);
   const scene = createScene(source.name);
   const warnings = (scene.warnings = new WarningList());
   const container = openContainer(source.bytes, source.name, scene.warnings);
@@ -134,7 +135,7 @@ export async function buildScene(
   let done = 0;
   // Decoders run on their own threads while geometry is read here.
   const imageBytes = new Budget(source.name, 'imageBytes', options.limits, reader.bytes);
-  const held = new HeldImages(source.name, (options.imageBudgetMiB ?? 4096) * 2 ** 20, signal);
+  const held = new HeldImages(source.name, imageBudgetMiB * 2 ** 20, signal);
   const images = table.readImages(options.decodeImage, reader.viewBytes, imageBytes, held, signal, () =>
     onProgress?.({ stage: 'images', done: ++done / table.imageCount }),
   );

@@ -13,6 +13,7 @@ function document(
   files: readonly Uint8Array[],
   slot: 'baseColorTexture' | 'metallicRoughnessTexture' = 'baseColorTexture',
   mimeType = 'image/png',
+  more: Readonly<Record<string, unknown>> = {},
 ): Uint8Array<ArrayBuffer> {
   const { json, binary } = triangle();
   const views: { buffer: number; byteOffset: number; byteLength: number }[] = [];
@@ -42,6 +43,7 @@ function document(
       materials: files.map((_, i) => ({ pbrMetallicRoughness: { [slot]: { index: i } } })),
       meshes: [{ primitives: files.map((_, material) => ({ ...primitive, material })) }],
       ...(mimeType === 'image/ktx2' ? { extensionsUsed: ['KHR_texture_basisu'] } : {}),
+      ...more,
     },
     data,
   );
@@ -171,6 +173,53 @@ describe('imageBudgetMiB', () => {
     expect(closed.length).toBe(scene.images.filter(({ width }) => width < 512).length);
     expect(closed.length).toBeGreaterThan(0);
     for (const { width, bitmap } of scene.images) expect(bitmap === undefined).toBe(width < 512);
+  });
+
+  it('images computed from others never read a bitmap that was closed', async () => {
+    const used: string[] = [];
+    let made = 0;
+    const bitmaps: ImageDecoder = async () => {
+      const index = made++;
+      let closed = false;
+      const bitmap = { width: 512, height: 512, close: () => (closed = true) } as unknown as ImageBitmap;
+      // The second is late: meanwhile the third exceeds the budget, and the first is reduced.
+      await new Promise((resolve) => setTimeout(resolve, index === 1 ? 100 : 0));
+      return Object.defineProperty({ width: 512, height: 512, bitmap }, 'data', {
+        get: () => {
+          used.push(`${index} ${closed ? 'closed' : 'open'}`);
+          if (closed) throw new Error('closed');
+          return new Uint8Array(4 * 512 * 512).fill(100 + index);
+        },
+        configurable: true,
+        enumerable: true,
+      }) as unknown as DecodedImage;
+    };
+    const materials = [
+      {
+        pbrMetallicRoughness: { metallicRoughnessTexture: { index: 0 } },
+        extensions: {
+          KHR_materials_anisotropy: { anisotropyStrength: 0.5, anisotropyTexture: { index: 1 } },
+        },
+      },
+      ...[2, 3].map((index) => ({ pbrMetallicRoughness: { baseColorTexture: { index } } })),
+      {},
+    ];
+    const file = document(
+      images.slice(0, 4).map(({ file }) => file),
+      'baseColorTexture',
+      'image/png',
+      { materials, extensionsUsed: ['KHR_materials_anisotropy'] },
+    );
+    const scene = await load(file, { decodeImage: bitmaps, imageBudgetMiB: 1 });
+    expect(used.filter((use) => use.endsWith('closed'))).toEqual([]);
+    expect(scene.images.some(({ name }) => name === 'image 0 + image 1')).toBe(true);
+  });
+
+  it.each([NaN, -1, 0, 'much' as unknown as number])('%s is an error', async (imageBudgetMiB) => {
+    await expect(load(document([]), { imageBudgetMiB })).rejects.toMatchObject({
+      code: 'gltf/option',
+      message: expect.stringContaining(`imageBudgetMiB is ${imageBudgetMiB}`) as string,
+    });
   });
 
   const KTX2 = [0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 0x0d, 0x0a, 0x1a, 0x0a];
