@@ -117,12 +117,10 @@ export function droppableBlocks({ width, height, compressed }: Pick<Image, 'widt
   return level;
 }
 
-/** The image's pixels, where they are not kept once they were asked for. */
-function pixelsOf(image: Image): Pixels {
-  const copy = Object.defineProperty({} as { data: Pixels }, 'data', {
-    ...(Object.getOwnPropertyDescriptor(image, 'data') as PropertyDescriptor),
-  });
-  return copy.data;
+/** Reads the image's pixels, without keeping them in it. Refers to nothing else of the image, such as its blocks. */
+function pixelReader(image: Image): () => Pixels {
+  const property = Object.getOwnPropertyDescriptor(image, 'data') as PropertyDescriptor;
+  return () => Object.defineProperty({} as { data: Pixels }, 'data', { ...property }).data;
 }
 
 /**
@@ -145,7 +143,8 @@ export function* reduceImageSteps(
 ): Steps<Image> {
   const { name, width, height, compressed } = image;
   const size = levelSize(width, height, level);
-  const filter = () => boxFilter(pixelsOf(image), [width, height], size, colorSpace === 'srgb');
+  const pixels = pixelReader(image);
+  const filter = () => boxFilter(pixels(), [width, height], size, colorSpace === 'srgb');
   const reduced = { name, width: size[0], height: size[1] };
   if (!blocks || !compressed) return { ...reduced, data: yield* filter() };
   const kept: CompressedImage = { format: compressed.format, levels: compressed.levels.slice(level) };

@@ -1,3 +1,5 @@
+import v8 from 'node:v8';
+import vm from 'node:vm';
 import { describe, expect, it } from 'vitest';
 import { finish, type Image } from '../src/index';
 import { droppableBlocks, reduceImageSteps } from '../src/texture-budget';
@@ -84,6 +86,31 @@ describe('reduceImageSteps', () => {
     finish(reduceImageSteps(image, 1, 'linear'));
     finish(reduceImageSteps(image, 2, 'linear'));
     expect(reads).toBe(2);
+  });
+
+  it('what is dropped of a compressed image is not kept for its pixels', async () => {
+    let reads = 0;
+    const lazy = () => {
+      reads++;
+      return noise(8, 8);
+    };
+    const make = () => {
+      const levels = [new Uint8Array(64), new Uint8Array(16)];
+      const image = Object.defineProperty(
+        { name: 'blocks', width: 8, height: 8, compressed: { format: 'bc7-rgba-unorm', levels } },
+        'data',
+        { get: lazy, configurable: true },
+      ) as unknown as Image;
+      return { reduced: finish(reduceImageSteps(image, 1, 'srgb', true)), dropped: new WeakRef(levels[0]!) };
+    };
+    const { reduced, dropped } = make();
+    v8.setFlagsFromString('--expose-gc');
+    const collect = vm.runInNewContext('gc') as () => void;
+    // A WeakRef holds its target until the end of the task.
+    await new Promise((resolve) => setTimeout(resolve));
+    collect();
+    expect(dropped.deref()).toBeUndefined();
+    expect([reads, reduced.data.length, reads]).toEqual([0, 4 * 16, 1]);
   });
 
   it('compressed images lose stored levels, in whole blocks, and stay compressed', () => {
