@@ -9,6 +9,7 @@ import {
   writeFileSync,
 } from 'node:fs';
 import { join } from 'node:path';
+import type { Camera } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
 import { parseCsv } from '../src/batch-file';
 import type { BatchResult, RenderResult } from '../src/index';
@@ -47,6 +48,17 @@ describe('variants and views', () => {
     expect(
       (result.images as RenderResult[]).map(({ variant, view, files: [file] }) => [variant, view, file!.path])[1],
     ).toEqual(['red', '30_20', 'm-red-30_20.png']);
+  });
+
+  it('with a budget for textures, each view has a tracer of its own, and variants share it', async () => {
+    const cwd = folder();
+    const budget = ['render', 'm.glb', ...SIZE, '--memory', 'budgetMiB=64'];
+    const views = await run([...budget, '--view', 'front', '--view', '30,20'], cwd, { scene });
+    expect([views.code, views.created.length]).toEqual([0, 2]);
+    const [front, other] = views.created.map(({ options }) => (options.camera as Camera).transform);
+    expect(front).not.toEqual(other);
+    const variants = await run([...budget, '--variant', 'all', '--view', 'front'], cwd, { scene });
+    expect([variants.code, variants.created.length]).toEqual([0, 1]);
   });
 
   it('placeholders anywhere in the path, folders made', async () => {

@@ -1,3 +1,4 @@
+import { isDeepStrictEqual } from 'node:util';
 import { GlanzError, type Camera, type Scene } from '@glanz/scene';
 import type {
   DenoiseQuality,
@@ -59,6 +60,8 @@ export class GpuWorker {
   /** The tracer's scene, where frames of a film are made. */
   #moving: MovingScene | undefined;
   #key = '';
+  /** The camera that the tracer was made with. */
+  #fittedFor: Camera | undefined;
   #warnedScene: Scene | undefined;
 
   constructor(context: WorkerContext, gpuName: string | undefined) {
@@ -337,7 +340,9 @@ export class GpuWorker {
     const { samples: _samples, noise: _noise, ...settings } = options.settings;
     const aovs = imageAovs(options);
     const key = JSON.stringify([sceneKey(options), width, height, settings, aovs]);
-    if (this.#tracer && key === this.#key) {
+    // Textures lose levels by what the first camera shows of them: another camera needs a tracer of its own.
+    const fits = settings.memory === undefined && !this.#tracer?.statistics.memory.reducedTextures.length;
+    if (this.#tracer && key === this.#key && (fits || isDeepStrictEqual(camera, this.#fittedFor))) {
       await this.#tracer.setVariant(variant);
       await this.#tracer.setCamera(camera);
       this.#tracer.reset({ firstSample: options.samplesFrom });
@@ -356,6 +361,7 @@ export class GpuWorker {
       onWarning: ({ message }) => progress.warning(message),
     });
     this.#key = key;
+    this.#fittedFor = camera;
     if (options.samplesFrom > 0) this.#tracer.reset({ firstSample: options.samplesFrom });
     if (variant !== undefined) await this.#tracer.setVariant(variant);
     return this.#tracer;
