@@ -162,8 +162,8 @@ export interface PathTracerOptions {
    */
   readonly onFirstLight?: (image: FirstLight) => void;
   /**
-   * Called once where the image is approximated because it needs less memory then: `renderer/textures-reduced`, with the numbers. Not
-   * thrown.
+   * Called once where textures have lost levels to fit into memory, and the image is approximated:
+   * `renderer/textures-reduced`, with the numbers. Not thrown.
    */
   readonly onWarning?: (warning: RenderError) => void;
 }
@@ -174,8 +174,8 @@ export interface MemoryBudget {
    * MiB of GPU memory that textures may take, mip levels included; a whole number from 1 to 1,048,576. Default: as much
    * as the device has. Where the GPU refuses the memory for a scene, its textures are halved until it does not.
    *
-   * Levels are dropped one at a time, first those that are seen least: where a texel is smaller than a pixel of the image,
-   * from the camera of `PathTracer.create`, nothing visible is lost. The size of texels on screen is estimated once, from
+   * Levels are dropped one at a time, first those that are seen least: where a texel is smaller than a pixel of the
+   * image, from the camera of `PathTracer.create`, nothing visible is lost. The size of texels on screen is estimated once, from
    * texture coordinates and distances of a sample of triangles; reflections and later cameras are not considered. Of
    * equals, the largest goes first. Each level that is dropped halves width and height, and what is left is the mip
    * level that was there anyway: the mean of 2 × 2 texels, of sRGB textures in linear light. Compressed images stay

@@ -12,7 +12,7 @@ export class Thumbnails {
     this.#make = make;
   }
 
-  /** The thumbnail of a file; `undefined` where none can be made: the image itself will do. */
+  /** The thumbnail of a file; `undefined` where none can be made, and the image is shown instead. */
   async of(file: string): Promise<Uint8Array | undefined> {
     const make = this.#make;
     if (!make) return undefined;

@@ -39,6 +39,8 @@ export interface FittedTextures {
   readonly source: TextureFitSource;
   /** Images that have lost levels, by their index in the tracer's scene. */
   reduced: ReadonlyMap<number, ReducedTexture>;
+  /** What `textureSizesOnScreen` has found, once it was needed. */
+  sizes: ReadonlyMap<number, number> | undefined;
   /** Bytes of all levels, where some were dropped. */
   fullBytes: number | undefined;
   /** Says that they were. */
@@ -87,12 +89,12 @@ async function reduce(
   const { device, scene, camera, options, signal } = fit.source;
   const fullBytes = fit.fullBytes ?? bytesOf(scene);
   const uses = usesOf(scene, usedTextures(scene.materials), compressedFormats(device));
-  const sizes = await inSlices(textureSizesOnScreen(scene, camera, options.height), { signal });
+  // Another attempt has the same textures.
+  const sizes = (fit.sizes ??= await inSlices(textureSizesOnScreen(scene, camera, options.height), { signal }));
   const maxSize = device.limits.maxTextureDimension2D;
   const costs = uses.map((use) => costOf(scene, use, sizes, maxSize, options.textureLodBias));
-  const levels = fittingLevels(costs, budget, (chosen) => bytesOf(standIn(scene, uses, chosen)));
-  const result = await replaceImages(scene, uses, async (use, index) => {
-    const level = levels[index] as number;
+  const levels = fittingLevels(costs, budget, (chosen) => bytesOf(sceneOfSizes(scene, uses, chosen)));
+  const result = await replaceImages(scene, uses, levels, async (use, level) => {
     const image = scene.images[use.image] as Image;
     return level === 0 ? image : inSlices(reduceImageSteps(image, level, use.space, use.blocks), { signal });
   });
@@ -176,7 +178,7 @@ function fittingLevels(
 }
 
 /** A scene with images of the sizes that levels give, without their pixels. */
-function standIn(scene: Scene, uses: readonly Use[], levels: readonly number[]): Scene {
+function sceneOfSizes(scene: Scene, uses: readonly Use[], levels: readonly number[]): Scene {
   const images = [...scene.images];
   const textures = [...scene.textures];
   uses.forEach(({ image: index, textures: users, blocks }, at) => {
@@ -193,19 +195,24 @@ function standIn(scene: Scene, uses: readonly Use[], levels: readonly number[]):
   return { ...scene, images, textures };
 }
 
-/** Puts an image in the place of each, one after another; beside it where textures of both colour spaces use it. */
+/**
+ * Puts an image in the place of each, one after another. Where textures of both colour spaces use it, the place belongs
+ * to the one that keeps all levels, else to the first; the other comes at the end.
+ */
 async function replaceImages(
   scene: Scene,
   uses: readonly Use[],
-  make: (use: Use, index: number) => Promise<Image>,
+  levels: readonly number[],
+  make: (use: Use, level: number) => Promise<Image>,
 ): Promise<{ readonly images: Image[]; readonly textures: Texture[]; readonly slots: readonly number[] }> {
   const images = [...scene.images];
   const textures = [...scene.textures];
   const slots: number[] = [];
   for (const [index, use] of uses.entries()) {
-    const made = await make(use, index);
-    const isShared = uses.some((other) => other !== use && other.image === use.image);
-    const slot = made === scene.images[use.image] || !isShared ? use.image : images.length;
+    const level = levels[index] as number;
+    const made = await make(use, level);
+    const isTaken = uses.some((other, at) => other.image === use.image && (at < index || levels[at] === 0));
+    const slot = level === 0 || !isTaken ? use.image : images.length;
     images[slot] = made;
     for (const texture of use.textures) textures[texture] = { ...(textures[texture] as Texture), image: slot };
     slots.push(slot);

@@ -11,6 +11,7 @@ import { arrayBytes, compressedFormats } from '../materials/textures';
  */
 export class TextureFit implements FittedTextures {
   declare fullBytes: number | undefined;
+  declare sizes: ReadonlyMap<number, number> | undefined;
   declare warning: RenderError | undefined;
   reduced: ReadonlyMap<number, ReducedTexture> = new Map();
   readonly source: TextureFitSource;

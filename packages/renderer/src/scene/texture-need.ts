@@ -1,7 +1,9 @@
 import type { Camera, Instance, Material, Mesh, Scene, Steps, TextureBinding } from '@glanz/scene';
 
-/** Triangles of a mesh that are looked at, evenly spread. */
+/** Max triangles of an instance that are sampled, evenly spread. */
 const TRIANGLES = 512;
+/** Max samples of all instances, where each has at least one. */
+const SAMPLES = 1 << 18;
 /** Share of what is seen of a texture that may be finer than the estimate: poles of spheres, seams. */
 const FINER = 0.05;
 
@@ -26,11 +28,12 @@ function* seenTriangles(
   [a, b, c, d]: ArrayLike<number> & Iterable<number>,
   eye: readonly number[],
   pixelAt: (distance: number) => number,
+  samples: number,
 ): Generator<Seen> {
   const uvs = mesh.uvs?.[set];
   if (!uvs) return;
   const triangles = Math.floor(mesh.indices.length / 3);
-  const step = Math.max(1, Math.floor(triangles / TRIANGLES));
+  const step = Math.max(1, Math.ceil(triangles / samples));
   const scale = Math.abs((a as number) * (d as number) - (b as number) * (c as number));
   const point = (vertex: number) =>
     [0, 1, 2].map(
@@ -40,7 +43,8 @@ function* seenTriangles(
           transform[12 + row] as number,
         ) - (eye[row] as number),
     ) as [number, number, number];
-  for (let t = 0; t < triangles; t += step) {
+  // From the middle of a step: meshes often begin at a pole.
+  for (let t = step >> 1; t < triangles; t += step) {
     const [i, j, k] = [0, 1, 2].map((corner) => mesh.indices[3 * t + corner] as number) as [number, number, number];
     const u = (vertex: number) => uvs[2 * vertex] as number;
     const v = (vertex: number) => uvs[2 * vertex + 1] as number;
@@ -77,19 +81,18 @@ export function* textureSizesOnScreen(scene: Scene, camera: Camera, height: numb
   const pixelAt = pixelSize(camera, height);
   const eye = [12, 13, 14].map((i) => camera.transform[i] as number);
   const sizes = new Map<number, number>();
+  const mappings = scene.materials.map(mappingsOf);
+  const mapped = (instance: Instance) => materialsOf(instance).flatMap((material) => mappings[material] ?? []);
+  const count = scene.instances.reduce((sum, instance) => sum + mapped(instance).length, 0);
+  const samples = Math.max(1, Math.min(TRIANGLES, Math.floor(SAMPLES / count)));
   for (const instance of scene.instances) {
     const mesh = scene.meshes[instance.mesh] as Mesh;
-    const bindings = materialsOf(instance).flatMap((material) =>
-      Object.values((scene.materials[material] as Material).textures ?? {}),
-    ) as (TextureBinding | undefined)[];
-    for (const binding of bindings) {
-      if (!binding) continue;
-      const { texture, uv = 0, transform = [1, 0, 0, 1, 0, 0] } = binding;
-      const seen = [...seenTriangles(mesh, instance.transform, uv, transform, eye, pixelAt)];
+    for (const { uv, transform, textures } of mapped(instance)) {
+      const seen = [...seenTriangles(mesh, instance.transform, uv, transform, eye, pixelAt, samples)];
       seen.sort((x, y) => y.pixels - x.pixels);
       let left = FINER * seen.reduce((sum, { weight }) => sum + weight, 0);
       const largest = seen.find(({ weight }) => (left -= weight) < 0)?.pixels ?? 0;
-      sizes.set(texture, Math.max(sizes.get(texture) ?? 0, largest));
+      for (const texture of textures) sizes.set(texture, Math.max(sizes.get(texture) ?? 0, largest));
       yield;
     }
   }
@@ -100,3 +103,24 @@ export function* textureSizesOnScreen(scene: Scene, camera: Camera, height: numb
 const materialsOf = ({ material, variants }: Instance): number[] => [
   ...new Set([material, ...Object.values(variants ?? {})]),
 ];
+
+/** Textures that lie alike on a surface. */
+interface Mapping {
+  readonly uv: number;
+  readonly transform: NonNullable<TextureBinding['transform']>;
+  readonly textures: Set<number>;
+}
+
+/** The textures of a material; most materials map all of them alike. */
+function mappingsOf({ textures }: Material): Mapping[] {
+  const mappings = new Map<string, Mapping>();
+  for (const binding of Object.values(textures ?? {}) as (TextureBinding | undefined)[]) {
+    if (!binding) continue;
+    const { texture, uv = 0, transform = [1, 0, 0, 1, 0, 0] } = binding;
+    const key = `${uv} ${[...transform].slice(0, 4)}`;
+    const mapping = mappings.get(key) ?? { uv, transform, textures: new Set() };
+    mapping.textures.add(texture);
+    mappings.set(key, mapping);
+  }
+  return [...mappings.values()];
+}

@@ -53,6 +53,34 @@ describe('textureSizesOnScreen', () => {
     expect(map.get(1)).toBeCloseTo(50, 6);
   });
 
+  it('samples no more triangles where there are more instances and textures', async () => {
+    const scene = createScene();
+    addSphere(scene, 0.5, [0, 0, 0], textured('ball', 0), 32);
+    const mesh = scene.meshes[0]!;
+    let reads = 0;
+    const indices = new Proxy(mesh.indices, {
+      get: (target, key) => {
+        reads++;
+        return target[key as unknown as number];
+      },
+    });
+    scene.meshes[0] = { ...mesh, indices, uvs: [mesh.normals!.filter((_, i) => i % 3 < 2)] };
+    const binding = (texture: number) => ({ texture, channels: 'r' }) as const;
+    const bindings = { specular_weight: binding(1), base_metalness: binding(2), coat_weight: binding(3) };
+    scene.materials[0] = { ...textured('ball', 0), textures: { ...textured('ball', 0).textures, ...bindings } };
+    const [instance] = scene.instances;
+    scene.instances = Array.from({ length: 4000 }, () => instance!);
+    const map = await sizes(scene);
+    expect([...map.keys()].sort()).toEqual([0, 1, 2, 3]);
+    expect(new Set(map.values()).size).toBe(1);
+    // The corners of 2¹⁸ triangles, and the count of each instance.
+    expect(reads).toBeLessThanOrEqual(3 * 2 ** 18 + 4000);
+    // And enough of them.
+    scene.instances = [instance!];
+    const [few, many] = [map.get(0)!, (await sizes(scene)).get(0)!];
+    expect(Math.abs(Math.log2(few / many))).toBeLessThan(0.5);
+  });
+
   it('the poles of a sphere do not count, and what nothing shows is absent', async () => {
     const scene = createScene();
     addSphere(scene, 0.5, [0, 0, 0], textured('ball', 0), 64);
