@@ -103,6 +103,37 @@ describe.skipIf(redis.missing !== undefined)(redis.missing ?? 'a farm on Redis',
     expect((await farm.queue.status()).failed).toBe(0);
   });
 
+  it('a destination that cannot be written does not hold up the jobs of others', async () => {
+    const farm = await testFarm(program);
+    writeFileSync(join(farm.folder, 'file'), '');
+    const bad = ['x', 'y', 'z'].map((label) => ({
+      job: jobOf(label),
+      destination: { root: join(farm.folder, 'file'), paths: [`${label}.txt`] },
+    }));
+    await farm.queue.submit([...bad, ...farm.requests(['a', 'b', 'c'].map((label) => jobOf(label)))], farm.store);
+    await farm.worker();
+    await farm.until('failed', () => farm.events.some(({ type }) => type === 'failed'));
+    const start = Date.now();
+    await farm.until('done', async () => (await farm.queue.status()).done === 3);
+    // The worker would pause for 2 s after each of the three.
+    expect(Date.now() - start).toBeLessThan(5500);
+    expect(Object.keys((await farm.queue.status()).retries)).toEqual(['files']);
+  });
+
+  it('a job that fails while the worker is drained leaves no timer', async () => {
+    const farm = await testFarm(program);
+    await farm.queue.submit(farm.requests([jobOf('late', { block: 1500, failAfter: 'gpu' })]), farm.store);
+    const timers = () => process.getActiveResourcesInfo().filter((name) => name === 'Timeout').length;
+    const before = timers();
+    const worker = await farm.worker();
+    await farm.until('begun', () => farm.log('begin').length === 1);
+    await worker.drain();
+    expect(farm.events.filter(({ type }) => type === 'failed').length).toBe(1);
+    // The worker would pause for 1 s.
+    await new Promise((done) => setTimeout(done, 400));
+    expect(timers()).toBeLessThanOrEqual(before);
+  });
+
   it('a worker does not start with a store that it cannot write', async () => {
     const farm = await testFarm(program);
     writeFileSync(join(farm.folder, 'file'), '');

@@ -75,7 +75,7 @@ describe('content', () => {
       expect(Buffer.from(await b.read(sha256(text))).toString()).toBe(text);
     });
     expect(reads.filter((line) => line.startsWith('GET')).length).toBe(1);
-    await expect(b.read('0'.repeat(64))).rejects.toMatchObject({ code: 'farm/store' });
+    await expect(b.read('0'.repeat(64))).rejects.toMatchObject({ code: 'farm/missing-file' });
     await expect(b.read('../../x')).rejects.toMatchObject({ code: 'farm/store' });
   });
 
@@ -142,7 +142,7 @@ describe('results', () => {
     const text = readFileSync(await a.resultFile(ID, 'a.txt'), 'utf8');
     expect(['first', 'second']).toContain(text);
     expect(result).toEqual({ ...meta, files: [{ name: 'a.txt', bytes: text.length, sha256: sha256(text) }] });
-    await expect(a.resultFile(ID, 'b.txt')).rejects.toMatchObject({ code: 'farm/store' });
+    await expect(a.resultFile(ID, 'b.txt')).rejects.toMatchObject({ code: 'farm/missing-file' });
   });
 
   it('are delivered below their root alone, and not downloaded again', async () => {

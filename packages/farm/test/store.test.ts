@@ -34,8 +34,8 @@ describe('content', () => {
     expect(await store.put(Buffer.from('content'))).toBe(hash);
     expect(Buffer.from(await store.read(hash)).toString()).toBe('content');
     writeFileSync(store.objectPath(hash), 'other');
-    await expect(store.read(hash)).rejects.toMatchObject({ code: 'farm/store' });
-    await expect(store.read('0'.repeat(64))).rejects.toMatchObject({ code: 'farm/store' });
+    await expect(store.read(hash)).rejects.toMatchObject({ code: 'farm/missing-file' });
+    await expect(store.read('0'.repeat(64))).rejects.toMatchObject({ code: 'farm/missing-file' });
     expect(() => store.objectPath('../../etc/passwd')).toThrow(/is not the identity/);
   });
 

@@ -112,11 +112,13 @@ export function farmRenderer(io: CliIo, backend: Backend, gpu: string | undefine
       const kind =
         exit === EXIT.gpu
           ? 'gpu'
-          : exit === EXIT.output || error instanceof FarmError
-            ? 'output'
-            : exit === EXIT.input || exit === EXIT.usage || code === 'cli/farm'
-              ? 'input'
-              : 'other';
+          : code === 'farm/missing-file'
+            ? 'files'
+            : exit === EXIT.output || error instanceof FarmError
+              ? 'output'
+              : exit === EXIT.input || exit === EXIT.usage || code === 'cli/farm'
+                ? 'input'
+                : 'other';
       if (io.debug || !(error instanceof GlanzError)) io.stderr(`${(error as Error)?.stack ?? String(error)}\n`);
       return { kind, code, message };
     },

@@ -68,14 +68,15 @@ export class FolderStore implements FarmStore {
     return hash;
   }
 
-  /** The bytes of content. @throws {FarmError} `farm/store` if they are not there, or are others */
+  /** The bytes of content. @throws {FarmError} `farm/missing-file` if they are not there, or are others */
   async read(hash: string): Promise<Uint8Array> {
     const file = this.objectPath(hash);
-    const bytes = await readFile(file).catch((cause: Error) => {
-      throw new FarmError('farm/store', `The store has no object ${hash}: ${cause.message}.`, { cause });
+    const bytes = await readFile(file).catch((cause: NodeJS.ErrnoException) => {
+      const code = cause.code === 'ENOENT' ? 'farm/missing-file' : 'farm/store';
+      throw new FarmError(code, `The store has no object ${hash}: ${cause.message}.`, { cause });
     });
     if (hashOf(bytes) !== hash)
-      throw new FarmError('farm/store', `The object ${hash} is damaged: delete "${file}" and submit again.`);
+      throw new FarmError('farm/missing-file', `The object ${hash} is damaged: delete "${file}" and submit again.`);
     return bytes;
   }
 
@@ -97,9 +98,11 @@ export class FolderStore implements FarmStore {
     await mkdir(partial, { recursive: true });
     try {
       for (const [name, object] of list) {
+        if (!(await exists(this.objectPath(object))))
+          throw new FarmError('farm/missing-file', `The store has no object ${object}: submit again.`);
         await copyWhole(this.objectPath(object), join(partial, name));
         if ((await hashFile(join(partial, name))) !== object)
-          throw new FarmError('farm/store', `The object ${object} is damaged: delete it and submit again.`);
+          throw new FarmError('farm/missing-file', `The object ${object} is damaged: delete it and submit again.`);
       }
       await renameUnlessThere(partial, folder);
     } finally {

@@ -16,6 +16,7 @@ export const MAX_TRIES: Readonly<Record<RenderFailure['kind'], number>> = {
   gpu: 5,
   input: 1,
   output: 8,
+  files: 8,
   crash: 3,
   other: 3,
 };
@@ -27,6 +28,7 @@ const NAMES: Readonly<Record<RenderFailure['kind'], string>> = {
   gpu: 'it lost its GPU',
   input: 'its input is wrong',
   output: 'its files could not be written',
+  files: 'its own files failed',
   crash: 'it ended its process',
   other: 'it failed',
 };

@@ -250,7 +250,10 @@ export class FarmWorker {
       const destinations = (await this.#redis.call('SMEMBERS', this.#keys.destinations(job.id))) as string[];
       for (const text of destinations) {
         const { root, paths } = JSON.parse(text) as Destination;
-        await store.deliver(result, { root: outputRoot ?? root, paths });
+        await store.deliver(result, { root: outputRoot ?? root, paths }).catch((error: unknown) => {
+          // Of this job alone: other jobs have other destinations.
+          throw new RenderFailure('files', 'farm/store', error instanceof Error ? error.message : String(error));
+        });
       }
     }
     await this.#redis.call('DEL', this.#keys.tries(job.id), this.#keys.destinations(job.id));
@@ -293,14 +296,17 @@ export class FarmWorker {
 
   /** Takes no job for a while, the longer the more have failed one after another. @param minMs Milliseconds at least. */
   async #rest(minMs: number): Promise<void> {
+    if (this.#draining) return;
     await this.#bull?.pause(true);
     clearTimeout(this.#pause);
+    // It may have been drained meanwhile.
+    if (this.#draining) return;
     this.#pause = setTimeout(
       () => {
         if (!this.#draining) this.#bull?.resume();
       },
       Math.max(minMs, pauseAfter(++this.#failures)),
-    );
+    ).unref();
   }
 
   async #heartbeat(): Promise<void> {
@@ -346,7 +352,8 @@ export class FarmWorker {
 
 function failureOf(error: unknown): RenderFailure {
   if (error instanceof RenderFailure) return error;
-  if (error instanceof FarmError) return new RenderFailure('output', error.code, error.message);
+  if (error instanceof FarmError)
+    return new RenderFailure(error.code === 'farm/missing-file' ? 'files' : 'output', error.code, error.message);
   const { message = String(error), code } = error as NodeJS.ErrnoException;
   // Calls of the file system.
   return new RenderFailure(typeof code === 'string' ? 'output' : 'other', 'farm/store', message);

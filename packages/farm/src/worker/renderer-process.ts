@@ -37,9 +37,10 @@ export type FromRenderer =
 
 /**
  * What a failure means for the job: `gpu`, the GPU was lost, and another one may do it; `input`, it fails everywhere;
- * `output`, a file could not be written, which may change; `other`.
+ * `output`, a file could not be written, which may change; `files`, the same of a file that only this job has, such as
+ * its destination, or one of its files is missing; `other`.
  */
-export type RendererFailure = 'gpu' | 'input' | 'output' | 'other';
+export type RendererFailure = 'gpu' | 'input' | 'output' | 'files' | 'other';
 
 /** Why a job was not finished. */
 export class RenderFailure extends Error {

@@ -112,7 +112,7 @@ export class S3Store implements FarmStore {
       return path;
     }
     if (!(await this.#bucket.download(key, path, hash)))
-      throw new FarmError('farm/store', `${this.address.url} has no object ${hash}.`);
+      throw new FarmError('farm/missing-file', `${this.address.url} has no object ${hash}.`);
     await this.#used(key);
     return path;
   }
@@ -157,7 +157,7 @@ export class S3Store implements FarmStore {
 
   async resultFile(id: string, name: string): Promise<string> {
     const file = (await this.result(id))?.files.find((one) => one.name === name);
-    if (!file) throw new FarmError('farm/store', `${this.address.url} has no file "${name}" of the job ${id}.`);
+    if (!file) throw new FarmError('farm/missing-file', `${this.address.url} has no file "${name}" of the job ${id}.`);
     return this.#object(file.sha256);
   }
 
@@ -213,7 +213,7 @@ export class S3Store implements FarmStore {
       if (await exists(path)) return copyWhole(path, target);
       // Not kept here: a manifest of all images would fill the disk twice.
       if (!(await this.#bucket.download(objectKey(sha256), target, sha256)))
-        throw new FarmError('farm/store', `${this.address.url} has no file "${name}" of ${result.label}.`);
+        throw new FarmError('farm/missing-file', `${this.address.url} has no file "${name}" of ${result.label}.`);
     });
   }
 
