@@ -120,20 +120,6 @@ describe.skipIf(redis.missing !== undefined)(redis.missing ?? 'a farm on Redis',
     expect(Object.keys((await farm.queue.status()).retries)).toEqual(['files']);
   });
 
-  it('a job that fails while the worker is drained leaves no timer', async () => {
-    const farm = await testFarm(program);
-    await farm.queue.submit(farm.requests([jobOf('late', { block: 1500, failAfter: 'gpu' })]), farm.store);
-    const timers = () => process.getActiveResourcesInfo().filter((name) => name === 'Timeout').length;
-    const before = timers();
-    const worker = await farm.worker();
-    await farm.until('begun', () => farm.log('begin').length === 1);
-    await worker.drain();
-    expect(farm.events.filter(({ type }) => type === 'failed').length).toBe(1);
-    // The worker would pause for 1 s.
-    await new Promise((done) => setTimeout(done, 400));
-    expect(timers()).toBeLessThanOrEqual(before);
-  });
-
   it('a worker does not start with a store that it cannot write', async () => {
     const farm = await testFarm(program);
     writeFileSync(join(farm.folder, 'file'), '');

@@ -21,6 +21,11 @@ describe.skipIf(redis.missing !== undefined)(
         'redis://[::1',
         'redis://127.0.0.1:1/shoes',
         'redis://:secret@127.0.0.1:99999',
+        'redis://:p@secret@127.0.0.1:99999',
+        'redis://:a/secret@127.0.0.1:99999',
+        'redis://:a?secret@127.0.0.1:99999',
+        'redis://127.0.0.1:99999?password=secret',
+        'redis://127.0.0.1:99999?password=a@secret',
       ]) {
         const error = await openFarmQueue({ redis: address }).catch((cause: unknown) => cause);
         expect([address, error]).toEqual([address, expect.objectContaining({ code: 'farm/option' })]);

@@ -1,7 +1,6 @@
 // A renderer's process for tests, written against the protocol. A job's payload says how it behaves:
 // { text }: a file with this text; { ms }: how long it takes; { exit }: it ends the process;
-// { fail: kind, times }: it fails, that often; { block }: it keeps the event loop busy for so many milliseconds;
-// { failAfter: kind }: it fails after that.
+// { fail: kind, times }: it fails, that often; { block }: it keeps the event loop busy for so many milliseconds.
 import { appendFileSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -13,7 +12,7 @@ process.on('SIGTERM', () => undefined);
 process.on('message', async (message) => {
   if (message.type === 'stop') return stopped();
   const { job, folder, checkpoint } = message;
-  const { text = '', ms = 0, exit, fail = process.env.TEST_FAIL, times = Infinity, block = 0, failAfter } = job.payload;
+  const { text = '', ms = 0, exit, fail = process.env.TEST_FAIL, times = Infinity, block = 0 } = job.payload;
   const from = existsSync(checkpoint) ? Number(readFileSync(checkpoint, 'utf8')) : 0;
   appendFileSync(log, `begin ${job.id} ${process.pid} ${from}\n`);
   process.stdout.write(`rendering ${job.label}\n`);
@@ -26,8 +25,6 @@ process.on('message', async (message) => {
   if (fail !== undefined && before < times)
     return process.send({ type: 'failed', kind: fail, code: `test/${fail}`, message: `It fails by ${fail}.` });
   for (const end = Date.now() + block; Date.now() < end;);
-  if (failAfter !== undefined)
-    return process.send({ type: 'failed', kind: failAfter, code: `test/${failAfter}`, message: `It fails by ${failAfter}.` });
   const stop = new Promise((done) => (stopped = () => done('stop')));
   const steps = Math.ceil(ms / 20);
   for (let step = from; step < steps; step++) {

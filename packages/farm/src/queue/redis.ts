@@ -76,8 +76,12 @@ export async function importQueueModules(): Promise<QueueModules> {
   }
 }
 
-/** The address of a Redis without its password, for messages. */
-export const shownAddress = (url: string): string => url.replace(/(:\/\/[^/@]*:)[^/@]*@/, '$1***@');
+/** The address of a Redis without its password and its query, for messages. */
+export const shownAddress = (url: string): string =>
+  url
+    .replace(/\?.*@.*$/s, '@')
+    .replace(/^((?:\w+:\/\/)?[^/@:]*)[/:@].*@/s, '$1:***@')
+    .replace(/\?.*$/s, '?***');
 
 /** The number of the database that an address names. @throws {FarmError} `farm/option` */
 function databaseOf(url: string): number {

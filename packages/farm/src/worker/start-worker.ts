@@ -13,7 +13,7 @@ const CONNECT_PAUSE_MS = 500;
 /** The id of no job. */
 const NONE = '0'.repeat(40);
 
-/** Writes and reads. A worker that cannot would fail one job after another. @throws {FarmError} */
+/** Writes in a folder, and reads. A worker that cannot would fail one job after another. @throws {FarmError} */
 async function checkStore(store: FarmStore): Promise<void> {
   try {
     const folder = await store.begin(NONE);
@@ -46,8 +46,8 @@ async function untilRedisAnswers(
 /**
  * Starts a worker, which runs until it is drained. It reconnects when the connection to Redis is lost.
  *
- * @throws {FarmError} `farm/missing-package`, `farm/redis`, `farm/option`; `farm/store`, `farm/store-access` for a store that
- * cannot be written or read
+ * @throws {FarmError} `farm/missing-package`, `farm/redis`, `farm/option`; `farm/store`, `farm/store-access` for a folder that
+ * cannot be written, and a bucket that cannot be read
  */
 export async function startFarmWorker(options: FarmWorkerOptions): Promise<FarmWorker> {
   const modules = options.modules ?? (await importQueueModules());
