@@ -59,7 +59,7 @@ it('serves the page, the status, metrics and images', async () => {
   expect(await (await get('/metrics')).text()).toContain('glanz_farm_jobs{state="waiting"} 2');
 });
 
-it('thumbnails are made once for each image, and replaced by the image where that fails', async () => {
+it('thumbnails are made once for each image, and not found where that fails', async () => {
   const made: string[] = [];
   const { get, id } = await served(async (file) => {
     made.push(file);
@@ -70,8 +70,16 @@ it('thumbnails are made once for each image, and replaced by the image where tha
   expect(made.length).toBe(1);
   expect(await (await get(`/result/${id}/0`)).text()).toBe('PNG');
   expect((await get(`/thumbnail/${id}/1`)).status).toBe(404);
-  const failing = await served(() => Promise.reject(new Error('no image')));
-  expect(await (await failing.get(`/thumbnail/${failing.id}/0`)).text()).toBe('PNG');
+  let tries = 0;
+  const failing = await served(async () => {
+    if (++tries === 1) throw new Error('no image');
+    return new TextEncoder().encode('small');
+  });
+  expect((await failing.get(`/thumbnail/${failing.id}/0`, { method: 'HEAD' })).status).toBe(200);
+  expect(tries).toBe(0);
+  const failed = await failing.get(`/thumbnail/${failing.id}/0`);
+  expect([failed.status, failed.headers.get('cache-control')]).toEqual([404, 'no-store']);
+  expect(await (await failing.get(`/thumbnail/${failing.id}/0`)).text()).toBe('small');
   const without = await served();
   expect(await (await without.get(`/thumbnail/${without.id}/0`)).text()).toBe('PNG');
 });

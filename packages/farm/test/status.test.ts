@@ -28,6 +28,9 @@ it('the time that is left: of what is rendered by its progress, of what waits by
   expect(await secondsLeft({ waiting: 6, active: 0 }, done, undefined, undefined)).toBe(6);
   // A job of 100 s, after the short ones: a quarter is rendered.
   expect(await secondsLeft({ waiting: 0, active: 1 }, done, running(25, 100, 25), undefined)).toBe(75);
+  // Continued at 90 samples: 5 in 10 s, and 5 are left.
+  const resumed = { ...running(95, 100, 10), resumed: 90 };
+  expect(await secondsLeft({ waiting: 0, active: 1 }, done, resumed, undefined)).toBe(10);
   expect(await secondsLeft({ waiting: 6, active: 2 }, done, running(1, 4, 1), running(0, 4, 1))).toBe(8.5);
   // The first job of a queue.
   const none = { jobs: 0, seconds: 0 };

@@ -14,6 +14,8 @@ export interface WorkerState {
     readonly label: string;
     readonly samples: number;
     readonly of: number;
+    /** Of the samples, those of earlier attempts. Default: none. */
+    readonly resumed?: number;
     /** Since the job began. */
     readonly seconds?: number;
   };
@@ -103,8 +105,8 @@ function timeLeft(
   if (waiting + active === 0) return 0;
   if (workers.length === 0) return undefined;
   const running = workers.flatMap(({ job }) => (job ? [job] : []));
-  const left = running.map(({ samples, of, seconds = 0 }) =>
-    samples > 0 ? (seconds * (of - samples)) / samples : secondsPerJob,
+  const left = running.map(({ samples, of, resumed = 0, seconds = 0 }) =>
+    samples > resumed ? (seconds * (of - samples)) / (samples - resumed) : secondsPerJob,
   );
   if (secondsPerJob === 0 && (waiting > 0 || left.includes(0))) return undefined;
   const all = left.reduce((sum, one) => sum + one, waiting * secondsPerJob);

@@ -42,7 +42,7 @@ export function statusServer(
   store: FarmStore,
   thumbnailOf?: (file: string) => Promise<Uint8Array>,
 ): StatusServer {
-  const thumbnails = new Thumbnails(thumbnailOf);
+  const thumbnails = thumbnailOf && new Thumbnails(thumbnailOf);
   let cached: { readonly at: number; readonly text: Promise<string> } | undefined;
   const statusText = () => {
     if (!cached || Date.now() - cached.at > FRESH_MS) {
@@ -78,6 +78,13 @@ export function statusServer(
       const name = id && (await store.result(id))?.files[Number(index)]?.name;
       if (!id || !name || !/^[\w-]+\.png$/.test(name)) return send(response, 404, 'text/plain', 'Not found.\n');
       const file = await store.resultFile(id, name);
+      let small: Uint8Array | undefined;
+      if (kind === 'thumbnail' && thumbnails && request.method === 'GET')
+        try {
+          small = await thumbnails.of(file);
+        } catch {
+          return send(response, 404, 'text/plain', 'No thumbnail can be made of this image.\n');
+        }
       response.writeHead(200, {
         'content-type': 'image/png',
         // A result never changes.
@@ -85,8 +92,7 @@ export function statusServer(
         'content-security-policy': POLICY,
         'x-content-type-options': 'nosniff',
       });
-      const small = kind === 'thumbnail' ? await thumbnails.of(file) : undefined;
-      if (small) return void response.end(small);
+      if (small || request.method === 'HEAD') return void response.end(small);
       createReadStream(file)
         .on('error', () => response.destroy())
         .pipe(response);

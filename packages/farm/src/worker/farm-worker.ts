@@ -1,4 +1,5 @@
 import { randomBytes } from 'node:crypto';
+import { existsSync } from 'node:fs';
 import { rm } from 'node:fs/promises';
 import { hostname } from 'node:os';
 import { FarmError } from '../error';
@@ -83,7 +84,9 @@ export class FarmWorker {
   #answered = Date.now();
   /** Whether a job is rendered, or its files are stored, for which Redis is not needed. */
   #storing = false;
-  #current: { job: FarmJob; samples: number; of: number; cancelled: boolean; start: number } | undefined;
+  #current:
+    | { job: FarmJob; samples: number; of: number; resumed: number; cancelled: boolean; start: number }
+    | undefined;
   #done = 0;
   #failures = 0;
   #draining = false;
@@ -173,7 +176,7 @@ export class FarmWorker {
     const { store, onEvent } = this.#options;
     const job = queued.data;
     const start = performance.now();
-    this.#current = { job, samples: 0, of: 0, cancelled: false, start };
+    this.#current = { job, samples: 0, of: 0, resumed: 0, cancelled: false, start };
     this.#storing = true;
     try {
       const there = await store.result(job.id);
@@ -228,12 +231,17 @@ export class FarmWorker {
 
   async #rendered(job: FarmJob, folder: string): Promise<RenderEnd> {
     const { store } = this.#options;
-    const end = this.#renderer.run(
-      { type: 'job', job, store: store.address, folder, checkpoint: await store.checkpoint(job.id) },
-      (samples, of) => {
-        if (this.#current) Object.assign(this.#current, { samples, of });
-      },
-    );
+    const checkpoint = await store.checkpoint(job.id);
+    let resumes = existsSync(checkpoint);
+    const end = this.#renderer.run({ type: 'job', job, store: store.address, folder, checkpoint }, (samples, of) => {
+      if (!this.#current) return;
+      Object.assign(this.#current, { samples, of });
+      // The first report of a job that continues counts the samples of earlier attempts.
+      if (resumes && samples > 0) {
+        this.#current.resumed = samples;
+        resumes = false;
+      }
+    });
     if (this.#draining) this.#renderer.stop();
     return end;
   }
@@ -327,6 +335,7 @@ export class FarmWorker {
               label: current.job.label,
               samples: current.samples,
               of: current.of,
+              resumed: current.resumed,
               seconds: (performance.now() - current.start) / 1000,
             },
           }
