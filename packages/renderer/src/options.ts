@@ -165,7 +165,7 @@ export interface PathTracerOptions {
    * Called once where textures have lost levels to fit into memory, and the image is approximated:
    * `renderer/textures-reduced`, with the numbers. Not thrown.
    */
-  readonly onWarning?: (warning: RenderError) => void;
+  readonly onWarning?: ((warning: RenderError) => void) | undefined;
 }
 
 /** See {@link PathTracerOptions.memory}. */

@@ -1,5 +1,5 @@
 import type { PathTracer, PathTracerOptions, RenderProgress } from '@glanz/renderer';
-import type { Camera, Scene } from '@glanz/scene';
+import type { Camera, GlanzError, Scene } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import type { DenoiseSession } from './denoise-session';
 import type { ViewerState } from './events';
@@ -26,11 +26,10 @@ export interface EngineHost {
   /** The film was cleared: what it shows from now on is another image. */
   readonly restarted?: () => void;
   readonly error: (error: unknown, retry?: () => void) => void;
-  /**
-   * The first request for a device failed; it is repeated for about two seconds before {@link Engine.ready} rejects. Or
-   * memory is missing, and textures have lost their largest levels.
-   */
+  /** The first request for a device failed; it is repeated for about two seconds before {@link Engine.ready} rejects. */
   readonly missing?: (error: unknown) => void;
+  /** The image is approximated, see `PathTracerOptions.onWarning`. */
+  readonly warning?: (warning: GlanzError) => void;
   /** The device was lost; another one is requested. */
   readonly lost: (reason: string) => void;
   /** The scene is restored on another device; `milliseconds` since the loss. */

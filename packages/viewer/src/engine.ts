@@ -304,7 +304,7 @@ export class Engine {
         height,
         signal: either,
         onProgress: (progress: PrepareProgress) => void (either.aborted || onProgress?.(progress)),
-        onWarning: this.#host.missing!,
+        onWarning: this.#host.warning,
       };
     };
     let restored = false;

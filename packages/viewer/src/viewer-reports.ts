@@ -43,6 +43,7 @@ export const engineReports = (events: Events): Omit<EngineHost, 'step' | 'moving
         ? error
         : new ViewerError('viewer/gpu', `There is no GPU: ${String(error)}`, { cause: error }),
     ),
+  warning: (warning) => reportWarning(events, warning),
   lost: (reason) => events.emit('device-lost', { reason }),
   restored: (milliseconds, samples) => events.emit('device-restored', { milliseconds, ...samples }),
 });
