@@ -3,7 +3,7 @@ import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { findRedis, type RedisProgram } from '@glanz/redis';
 import { describe, expect, it, onTestFinished } from 'vitest';
-import { FolderStore, openFarmQueue, startFarmWorker } from '../src/index';
+import { FolderStore, importQueueModules, openFarmQueue, startFarmWorker } from '../src/index';
 import { jobOf, temporaryFolder, testFarm } from './farm-on-redis';
 
 const redis = await findRedis();
@@ -21,6 +21,7 @@ describe.skipIf(redis.missing !== undefined)(
         'redis://[::1',
         'redis://127.0.0.1:1/shoes',
         'redis://:secret@127.0.0.1:99999',
+        'redis://127.0.0.1:1?db=2',
         'redis://:p@secret@127.0.0.1:99999',
         'redis://:a/secret@127.0.0.1:99999',
         'redis://:a?secret@127.0.0.1:99999',
@@ -103,6 +104,25 @@ describe.skipIf(redis.missing !== undefined)(
       await farm.worker();
       await farm.until('done', () => existsSync(join(farm.folder, 'out/long.txt')));
       expect(Number(farm.log('begin')[1]!.split(' ')[3])).toBeGreaterThan(5);
+    });
+
+    it('a job that is submitted while all are cancelled keeps its destination', async () => {
+      const farm = await testFarm(program);
+      const modules = await importQueueModules();
+      const late = farm.requests([jobOf('late')]);
+      class Queue extends (modules.Queue as new (...given: never[]) => { drain(delayed?: boolean): Promise<void> }) {
+        override async drain(delayed?: boolean) {
+          await super.drain(delayed);
+          await farm.queue.submit(late, farm.store);
+        }
+      }
+      const queue = await openFarmQueue({ redis: farm.redis.url, modules: { ...modules, Queue: Queue as never } });
+      onTestFinished(() => queue.close());
+      await farm.queue.submit(farm.requests([jobOf('a')]), farm.store);
+      expect(await queue.cancel()).toEqual({ removed: 1, stopping: 0 });
+      await farm.worker();
+      await farm.until('done', async () => (await farm.queue.status()).done === 1);
+      expect(readdirSync(join(farm.folder, 'out'))).toEqual(['late.txt']);
     });
 
     it('what was cancelled and is submitted again goes to its new destination alone', async () => {

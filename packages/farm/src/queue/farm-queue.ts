@@ -151,15 +151,18 @@ export class FarmQueue {
    * @returns How many waiting, delayed or failed jobs were removed, and how many will stop.
    */
   async cancel(ids?: readonly string[]): Promise<{ readonly removed: number; readonly stopping: number }> {
-    const before = ids ? 0 : sum(await this.#queue.getJobCounts('waiting', 'delayed', 'paused', 'prioritized'));
     const active = ids ? ids : (await this.#queue.getActive(0, -1)).map(({ id }) => String(id));
     let removed = 0;
     let stopping = 0;
     if (!ids) {
+      const states = ['waiting', 'delayed', 'paused', 'prioritized'];
+      const [waiting, failed] = await Promise.all([this.#queue.getJobs(states, 0, -1), this.#failed()]);
+      const found = waiting.filter((job) => job !== undefined);
       await this.#queue.drain(true);
-      removed = before;
-      await this.#forgetAll();
-      for (const job of await this.#failed()) await job.remove().then(() => removed++);
+      removed = found.length;
+      for (const job of failed) await job.remove().then(() => removed++);
+      // Not those that were submitted meanwhile.
+      await this.#forget([...found, ...failed].map(({ data }) => data));
     }
     for (const id of active) {
       const job = await this.#queue.getJob(id);
@@ -177,17 +180,11 @@ export class FarmQueue {
   }
 
   /** Deletes what is kept of jobs beside BullMQ's keys: submitted again, they go to their new destinations alone. */
-  async #forgetAll(): Promise<void> {
-    for (const pattern of [this.keys.destinations('*'), this.keys.tries('*')]) {
-      let cursor = '0';
-      do {
-        const [next, keys] = (await this.#redis.call('SCAN', cursor, 'MATCH', pattern, 'COUNT', 1000)) as [
-          string,
-          string[],
-        ];
-        if (keys.length > 0) await this.#redis.call('DEL', ...keys);
-        cursor = next;
-      } while (cursor !== '0');
+  async #forget(jobs: readonly FarmJob[]): Promise<void> {
+    for (let i = 0; i < jobs.length; i += GROUP) {
+      const group = jobs.slice(i, i + GROUP);
+      const keys = group.flatMap((job) => [this.keys.destinations(destinationOwner(job)), this.keys.tries(job.id)]);
+      await this.#redis.call('DEL', ...keys);
     }
   }
 
@@ -235,8 +232,6 @@ export interface DeadLetter {
   /** The output of the renderer's processes, attempt by attempt. */
   readonly log: readonly string[];
 }
-
-const sum = (counts: Readonly<Record<string, number>>) => Object.values(counts).reduce((all, count) => all + count, 0);
 
 /** Parts leave their files in the store; the merge has the destination. */
 const destinationOwner = (job: FarmJob): string => job.merge?.id ?? job.id;

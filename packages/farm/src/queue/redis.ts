@@ -35,6 +35,7 @@ export interface BullQueue<T = unknown> {
   getJobCounts(...states: string[]): Promise<Readonly<Record<string, number>>>;
   getJobLogs(id: string): Promise<{ readonly logs: readonly string[] }>;
   getActive(start: number, end: number): Promise<QueuedJob<T>[]>;
+  getJobs(states: string[], start: number, end: number): Promise<(QueuedJob<T> | undefined)[]>;
   drain(delayed?: boolean): Promise<void>;
   close(): Promise<void>;
   on(event: 'error', listener: (error: Error) => void): unknown;
@@ -90,6 +91,8 @@ function databaseOf(url: string): number {
       'farm/option',
       `The address of Redis must be like redis://127.0.0.1:6379, or redis://127.0.0.1:6379/2 for its database 2, not "${shownAddress(url)}".`,
     );
+  // The client would read it, and this connection would then select another one.
+  if (/[?&]db=/.test(url)) throw wrong();
   if (url.startsWith('unix:')) return 0;
   if (!/^rediss?:\/\//.test(url)) throw wrong();
   let path: string;
