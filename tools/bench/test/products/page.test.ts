@@ -20,7 +20,7 @@ const measurement = (product: string, setUpMs: number): ProductMeasurement => ({
 const report = (...details: ProductMeasurement[]): ProductReport => ({
   benchmark: 'products',
   gpu: { name: 'a GPU' },
-  machine: {},
+  machine: { commit: 'abc1234' },
   settings: { titles: { a: 'a bottle', b: 'a ring' }, peer: 'three-gpu-pathtracer 0.0.26' },
   notes: [],
   details,
@@ -41,7 +41,7 @@ it('writes the page and the figures of reports, and refuses other files', () => 
   writeProductPage(readReports([file]), [{ name: 'x' }], '12.3', folder);
   const page = readFileSync(join(folder, 'products.md'), 'utf8');
   expect(page).toContain('**12.3×**');
-  expect(page).toContain('Measured on a GPU;');
+  expect(page).toContain('Measured on a GPU (commits abc1234);');
   expect(page).toContain('- `a`: a bottle\n');
   expect(page).not.toContain('a ring');
   expect(JSON.parse(readFileSync(join(folder, 'products.json'), 'utf8'))).toMatchObject({ figures: [{ name: 'x' }] });
