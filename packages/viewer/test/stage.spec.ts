@@ -81,7 +81,7 @@ const foot = (page: Page) =>
 test('a ground catches shadows as strong as asked for, at the foot of the model, and is not framed', async ({
   page,
 }) => {
-  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 16, pixelRatio: 0.4 };
+  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 64, pixelRatio: 0.4 };
   await open(page, served.origin, options, board([0, 0, 0]));
   expect((await foot(page)).alpha).toBe(0);
   const { instances } = await page.evaluate(() => ({ instances: window.viewer.scene!.instances.length }));
