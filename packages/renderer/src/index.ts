@@ -15,13 +15,10 @@ export type {
   HistoryFrame,
   LightGroup,
   LightGroupMode,
-  MemoryBudget,
-  MemoryReport,
   PathTracerOptions,
   PickResult,
   PixelFilter,
   PrepareProgress,
-  ReducedTexture,
   FirstLight,
   RenderOptions,
   RenderProgress,
@@ -29,5 +26,6 @@ export type {
   Sampler,
   TracerDenoiser,
 } from './options';
+export type { MemoryBudget, MemoryReport, ReducedTexture } from './memory';
 export { warmUp, type WarmUpOptions } from './warm-up';
 export { CostModel } from './schedule/cost-model';

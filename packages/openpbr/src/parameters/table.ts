@@ -14,8 +14,8 @@ const table = (): Table =>
   ) as unknown as Table;
 
 /**
- * The parameter table of OpenPBR Surface 1.1.1, with three of the draft of 1.2 (`draft`), as data: names, types, defaults, hard and soft ranges, units, groups and
- * documentation, in the specification's order. Validation and importers read it without the texts, see
+ * The parameter table of OpenPBR Surface 1.1.1, with three of the draft of 1.2 (`draft`), as data: names, types,
+ * defaults, hard and soft ranges, units, groups and documentation, in the specification's order. Validation and importers read it without the texts, see
  * {@link OPENPBR_PARAMETER_SPECS}.
  *
  * @example

@@ -5,8 +5,9 @@ export type OpenPbrColor = readonly [r: number, g: number, b: number];
 export type OpenPbrVector = readonly [x: number, y: number, z: number];
 
 /**
- * Every parameter of OpenPBR Surface 1.1.1, and three of the draft of 1.2, under the specification's names. Colours are linear with Rec.709/sRGB
- * primaries (the specification's own examples are in ACEScg), lengths are metres unless the parameter says otherwise.
+ * Every parameter of OpenPBR Surface 1.1.1, and three of the draft of 1.2, under the specification's names. Colours are
+ * linear with Rec.709/sRGB primaries (the specification's own examples are in ACEScg), lengths are metres unless the
+ * parameter says otherwise.
  * The same text, with ranges and defaults, is data in {@link OPENPBR_PARAMETERS}.
  */
 export interface OpenPbrParameters {

@@ -9,7 +9,8 @@ import {
   type TextureLevels,
 } from '@glanz/scene/texture-budget';
 import type { DeviceError, RenderError } from '../errors';
-import type { PathTracerOptions, ReducedTexture } from '../options';
+import type { ReducedTexture } from '../memory';
+import type { PathTracerOptions } from '../options';
 import type { usedTextures } from '../materials/materials';
 import { textureSizesOnScreen } from './texture-need';
 import type { compressedFormats, TexturePlan } from '../materials/textures';

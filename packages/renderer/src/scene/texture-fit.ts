@@ -1,6 +1,6 @@
 import type { Scene } from '@glanz/scene';
 import { RenderError } from '../errors';
-import type { ReducedTexture } from '../options';
+import type { ReducedTexture } from '../memory';
 import type { FittedTextures, TextureFitSource } from './fit-textures';
 import { usedTextures } from '../materials/materials';
 import { arrayBytes, compressedFormats } from '../materials/textures';

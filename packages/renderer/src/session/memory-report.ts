@@ -1,5 +1,5 @@
 import type { TextureFit } from '../scene/texture-fit';
-import type { MemoryReport } from '../options';
+import type { MemoryReport } from '../memory';
 import type { GpuMemory } from '../storage/buffers';
 
 /** Labels of the buffers and textures that belong together. */
