@@ -1,4 +1,5 @@
 import { DenoiseError } from './error';
+import { chooseMatrices, matricesOf, type DeviceMatrices } from './kernels/choose-matrices';
 import { chooseShape, withGroups } from './kernels/choose-shape';
 import { readNetwork, type Network } from './network';
 import type { DenoiserInput, DenoiserOptions } from './options';
@@ -63,12 +64,27 @@ export function readNetworks(
   return networks;
 }
 
-/** How threads share layers: what the caller asks for where it fits, the usual choice elsewhere. */
-export function shapesOf(device: GPUDevice, shapeOf: DenoiserOptions['shapeOf']): PlanOptions['shapeOf'] {
+/**
+ * How layers are shared: as the caller asks for where that fits, by subgroup matrices where the device has them, among
+ * threads by the usual choice elsewhere.
+ */
+export function shapesOf(
+  device: GPUDevice,
+  shapeOf: DenoiserOptions['shapeOf'],
+  matrices: DeviceMatrices | undefined,
+): PlanOptions['shapeOf'] {
   const software = isSoftware(device);
   return (layer, width, height) => {
     const family = shapeOf?.(layer, width, height);
     const shape = family && withGroups(family, layer);
-    return shape ?? chooseShape(layer, width, height, software);
+    return shape ?? (matrices && chooseMatrices(layer, matrices)) ?? chooseShape(layer, width, height, software);
   };
+}
+
+/** Matrices by which a denoiser with these options computes. */
+export async function matricesFor(
+  device: GPUDevice,
+  { storage, subgroupMatrices = true }: Pick<DenoiserOptions, 'storage' | 'subgroupMatrices'>,
+): Promise<DeviceMatrices | undefined> {
+  return subgroupMatrices && storage !== 'f32' ? matricesOf(device) : undefined;
 }

@@ -1,7 +1,8 @@
 import { Chain, makeStages, type Stage } from './chain';
-import { checkOptions, readNetworks, shapesOf, type NetworkOf } from './configure';
+import { checkOptions, matricesFor, readNetworks, shapesOf, type NetworkOf } from './configure';
 import { DenoiseError } from './error';
 import { lossOf } from './gpu';
+import type { DeviceMatrices } from './kernels/choose-matrices';
 import { checkSize } from './images';
 import { JobCursor, costOf } from './jobs';
 import type { PlanOptions } from './plan';
@@ -39,14 +40,19 @@ export class Denoiser {
   #last: Promise<unknown> = Promise.resolve();
   #destroyed = false;
 
-  private constructor(device: GPUDevice, networks: readonly NetworkOf[], options: DenoiserOptions) {
+  private constructor(
+    device: GPUDevice,
+    networks: readonly NetworkOf[],
+    options: DenoiserOptions,
+    matrices: DeviceMatrices | undefined,
+  ) {
     this.#device = device;
     this.input = options.input ?? 'hdr';
     this.storage = options.storage ?? 'f16';
     this.#maxMemory = options.maxMemory ?? 2 ** 30;
     this.#pace = new Pace(options.maxSubmitMs ?? 8);
     this.#stages = makeStages(device, networks, this.storage);
-    this.#shapeOf = shapesOf(device, options.shapeOf);
+    this.#shapeOf = shapesOf(device, options.shapeOf, matrices);
     this.#lost = lossOf(device);
   }
 
@@ -63,7 +69,7 @@ export class Denoiser {
   ): Promise<Denoiser> {
     options.signal?.throwIfAborted();
     checkOptions(options);
-    const denoiser = new Denoiser(device, readNetworks(weights, options), options);
+    const denoiser = new Denoiser(device, readNetworks(weights, options), options, await matricesFor(device, options));
     await Promise.all(denoiser.#stages.map(({ kernels }) => kernels.prelude()));
     options.signal?.throwIfAborted();
     return denoiser;

@@ -2,9 +2,11 @@ import { STORAGE, compileKernel, filledBuffer, type BindingKind, type Kernel } f
 import { convolutionModule } from './kernels/convolution.wgsl';
 import encode from './kernels/encode.wesl';
 import exposure from './kernels/exposure.wesl';
-import { shapeName, tileOutputs } from './kernels/shapes';
+import { matrixConvolution } from './kernels/matrix-convolution.wgsl';
+import { hasMatrices, shapeName, tileOutputs } from './kernels/shapes';
 import type { Network } from './network';
 import type { DenoiserInput, DenoiserStorage } from './options';
+import { packMatrices } from './pack-matrices';
 import { packWeights, type PackedWeights } from './pack-weights';
 import type { LayerPlan } from './plan';
 
@@ -93,7 +95,10 @@ export class NetworkKernels {
       const bindings: Record<number, BindingKind> = { 0: 'uniform', 1: 'dynamic', 2: 'read', 3: 'read', 5: 'write' };
       if (up) bindings[4] = 'read';
       if (last) Object.assign(bindings, { 6: 'dynamic', 7: 'read', 8: 'read' });
-      const module = convolutionModule({ shape, up, directChannels: layer.directChannels, pool: layer.pool, last });
+      if (hasMatrices(shape)) bindings[6] = 'read';
+      const module = hasMatrices(shape)
+        ? matrixConvolution({ shape, pool: layer.pool })
+        : convolutionModule({ shape, up, directChannels: layer.directChannels, pool: layer.pool, last });
       kernel = compileKernel(this.#device, `denoise ${key}`, module, this.#flags, bindings);
       this.#convolutions.set(key, kernel);
       // A failure is not kept: the next call tries again.
@@ -105,11 +110,15 @@ export class NetworkKernels {
   /** A layer's weights, packed for its shape. */
   weights({ layer, shape }: LayerPlan): { readonly buffer: GPUBuffer; readonly packed: PackedWeights } {
     const multiple = tileOutputs(shape);
-    const key = `${layer.name} ${multiple}`;
+    const matrix = hasMatrices(shape) ? shape.matrix : undefined;
+    const key = `${layer.name} ${multiple} ${matrix ? `${matrix.n}x${matrix.k}` : ''}`;
     let known = this.#weights.get(key);
     if (!known) {
-      const packed = packWeights(layer, multiple);
-      known = { buffer: filledBuffer(this.#device, `denoise ${layer.name}`, packed.data.buffer, STORAGE), packed };
+      const packed = matrix ? packMatrices(layer, multiple, matrix) : packWeights(layer, multiple);
+      known = {
+        buffer: filledBuffer(this.#device, `denoise ${layer.name}`, packed.data.buffer as ArrayBuffer, STORAGE),
+        packed,
+      };
       this.#weights.set(key, known);
     }
     return known;

@@ -1,5 +1,5 @@
 import { ALIGNMENT } from './gpu';
-import { stagedUpChannels, tileHeight, tileOutputs, tileWidth, type KernelShape } from './kernels/shapes';
+import { hasMatrices, stagedUpChannels, tileHeight, tileOutputs, tileWidth, type KernelShape } from './kernels/shapes';
 import { INPUT, type Layer, type Network } from './network';
 import { quadsOf } from './pack-weights';
 
@@ -185,7 +185,7 @@ export function planNetwork(network: Network, width: number, height: number, opt
     const direct = tensors.get(layer.direct)!;
     const up = layer.up === undefined ? undefined : tensors.get(layer.up)!;
     const shape = shapeOf(layer, direct.width, direct.height);
-    if (stagedUpChannels(shape, up !== undefined) === 0) return undefined;
+    if (!hasMatrices(shape) && stagedUpChannels(shape, up !== undefined) === 0) return undefined;
     const half = layer.pool ? 2 : 1;
     const last = i === network.layers.length - 1;
     const result = last ? undefined : add(i, quadsOf(layer.channels), direct.width / half, direct.height / half);

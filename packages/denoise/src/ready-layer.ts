@@ -1,5 +1,6 @@
 import { ALIGNMENT, UNIFORM, bindGroup, filledBuffer, type Kernel, type Window } from './gpu';
 import { layerStruct } from './kernels/layouts';
+import { hasMatrices } from './kernels/shapes';
 import type { NetworkKernels } from './network-kernels';
 import type { LayerPlan, Strip, TensorWindow } from './plan';
 
@@ -55,13 +56,16 @@ export function readyLayer(
   const layer = filledBuffer(device, `denoise ${plan.layer.name}`, uniforms, UNIFORM);
   own.push(layer);
   const strips = plan.strips.map((strip, i) => {
+    const bound = { buffer: weights, offset: 0, size: weights.size };
     const resources: Record<number, Window> = {
       0: { buffer: layer, offset: i * stride, size: layerStruct.size },
       1: { buffer: rows, offset: 0, size: 16 },
-      2: { buffer: weights, offset: 0, size: weights.size },
+      2: bound,
       3: windowOf(strip.direct),
       ...(strip.up ? { 4: windowOf(strip.up) } : {}),
       ...(strip.result ? { 5: windowOf(strip.result) } : {}),
+      // Biases, which are in single precision.
+      ...(hasMatrices(plan.shape) ? { 6: bound } : {}),
     };
     return { strip, resources, group: strip.result && bindGroup(device, kernel, resources) };
   });

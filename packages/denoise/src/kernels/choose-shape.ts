@@ -7,7 +7,7 @@ import {
   tileOutputs,
   tileWidth,
   type KernelFamily,
-  type KernelShape,
+  type ThreadShape,
 } from './shapes';
 
 /** A family with the share of the arithmetic peak that it reaches where there is enough to do, relative to the first. */
@@ -61,12 +61,12 @@ const TRIALS_SOFTWARE: readonly KernelFamily[] = [
 export function withGroups(
   family: KernelFamily,
   { channels, up, pool }: Pick<Layer, 'channels' | 'up' | 'pool'>,
-): KernelShape | undefined {
+): ThreadShape | undefined {
   if (pool && family.rows % 2 !== 0) return undefined;
-  let best: KernelShape | undefined;
+  let best: ThreadShape | undefined;
   let min = Infinity;
   for (let groups = 1; groups <= (family.maxGroups ?? 8); groups++) {
-    const shape: KernelShape = { ...family, groups };
+    const shape: ThreadShape = { ...family, groups };
     if (stagedUpChannels(shape, up !== undefined) === 0 || groups * family.outputs >= channels + family.outputs) break;
     const computed = Math.ceil(channels / tileOutputs(shape)) * tileOutputs(shape);
     if (computed > min) continue;
@@ -87,7 +87,7 @@ const LATENCY = 2;
 const STAGING = 500;
 
 /** Cycles that a layer would take, by the model. */
-function estimate(layer: Layer, shape: KernelShape, efficiency: number, width: number, height: number): number {
+function estimate(layer: Layer, shape: ThreadShape, efficiency: number, width: number, height: number): number {
   const threads = threadsOf(shape);
   const workgroups =
     Math.ceil(width / tileWidth(shape)) *
@@ -104,8 +104,8 @@ function estimate(layer: Layer, shape: KernelShape, efficiency: number, width: n
 }
 
 /** Shapes of the families for a layer of `width` × `height` pixels, the best by the model first. */
-function rank(layer: Layer, width: number, height: number): KernelShape[] {
-  const ranked: (readonly [shape: KernelShape, cycles: number])[] = [];
+function rank(layer: Layer, width: number, height: number): ThreadShape[] {
+  const ranked: (readonly [shape: ThreadShape, cycles: number])[] = [];
   for (const { family, efficiency: plain, upsampled } of CHOICES) {
     const efficiency = layer.up === undefined ? plain : upsampled;
     const shape = withGroups(family, layer);
@@ -119,7 +119,7 @@ function rank(layer: Layer, width: number, height: number): KernelShape[] {
  *
  * @param software Whether a CPU computes.
  */
-export function chooseShape(layer: Layer, width: number, height: number, software: boolean): KernelShape {
+export function chooseShape(layer: Layer, width: number, height: number, software: boolean): ThreadShape {
   if (software) return withGroups(FAMILY_SOFTWARE, layer)!;
   if (layer.channels <= 4) return withGroups(FAMILY_LAST, layer)!;
   return rank(layer, width, height)[0]!;
@@ -132,13 +132,13 @@ export function candidateShapes(
   height: number,
   software: boolean,
   count: number,
-): KernelShape[] {
+): ThreadShape[] {
   const usual = chooseShape(layer, width, height, software);
   if (!software && layer.channels <= 4) return [usual];
   const others = software
     ? TRIALS_SOFTWARE.flatMap((family) => withGroups(family, layer) ?? [])
     : rank(layer, width, height);
-  const shapes = new Map<string, KernelShape>();
+  const shapes = new Map<string, ThreadShape>();
   // None twice.
   for (const shape of [usual, ...others]) if (!shapes.has(shapeName(shape))) shapes.set(shapeName(shape), shape);
   return [...shapes.values()].slice(0, count);

@@ -1,12 +1,12 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import finish from './finish.wesl';
-import { stagedUpChannels, stagesWeights, threadsOf, tileHeight, type KernelShape } from './shapes';
+import { stagedUpChannels, stagesWeights, threadsOf, tileHeight, type ThreadShape } from './shapes';
 import { DenoiseLayer } from './layouts';
 import tensor from './tensor.wesl';
 
 /** What a convolution's shader depends on. */
 export interface ConvolutionKernel {
-  readonly shape: KernelShape;
+  readonly shape: ThreadShape;
   /** Whether the first source is at half of the resolution, to be upsampled. */
   readonly up: boolean;
   /** Channels of the source at full resolution. The last vector of four may hold fewer, which are all that is added. */
@@ -29,7 +29,7 @@ const SHIFTED = ['$a', 'vec4f($a.yzw, $b.x)', 'vec4f($a.zw, $b.xy)'] as const;
 // Text in place of loops: sums are registers, and drivers do not always unroll what indexes them.
 class Emitter {
   readonly #kernel: ConvolutionKernel;
-  readonly #shape: KernelShape;
+  readonly #shape: ThreadShape;
   /** Vectors of output channels a thread. */
   readonly #quads: number;
   /** Output channels a thread that are computed: the last layer has three, and its vector a place to spare. */

@@ -17,10 +17,56 @@ export interface KernelFamily {
 }
 
 /** A family with the number of groups that suits a layer. */
-export interface KernelShape extends KernelFamily {
+export interface ThreadShape extends KernelFamily {
   /** Groups of threads that compute other output channels of the same pixels. */
   readonly groups: number;
 }
+
+/** Sizes of the matrices that a device multiplies: `m` × `k` times `k` × `n`. Multiples of 4. */
+export interface MatrixSize {
+  /** Pixels of a row. */
+  readonly m: number;
+  /** Output channels. */
+  readonly n: number;
+  /** Input channels. */
+  readonly k: number;
+}
+
+/**
+ * How subgroups share a convolution by matrices: a subgroup computes `m` pixels along x in `rows` rows, of
+ * `n` output channels. Where a source is upsampled, `m` and `rows` count pixels of the small image, and the
+ * four pixels of the result that lie in each are computed together.
+ */
+export interface MatrixShape {
+  readonly matrix: MatrixSize;
+  /** Threads of a subgroup. */
+  readonly lanes: number;
+  /** Rows of pixels a subgroup; even where a layer is pooled. */
+  readonly rows: number;
+  /** Subgroups of a workgroup, which compute other output channels of the same pixels. */
+  readonly subgroups: number;
+  /** Halves from a pixel to the next in workgroup memory, a multiple of 8: more than `k` spreads rows over banks. */
+  readonly pixelStride: number;
+  /** Whether the layer has an upsampled source. */
+  readonly up: boolean;
+}
+
+/** How a layer is shared: among threads, or among subgroups that multiply matrices. */
+export type KernelShape = ThreadShape | MatrixShape;
+
+/** Whether a layer is computed by subgroup matrices. */
+export const hasMatrices = (shape: KernelShape): shape is MatrixShape => 'matrix' in shape;
+
+/** Halves of workgroup memory in which pixels are staged. */
+export const matrixPatch = (shape: MatrixShape): number =>
+  (tileWidth(shape) + 2) * (tileHeight(shape) + 2) * shape.pixelStride;
+
+/** Vectors of workgroup memory in which a subgroup's sums are passed on; one more a row than it has spreads them over banks. */
+export const matrixSums = ({ matrix: { m, n } }: MatrixShape): number => m * (n / 4 + 1);
+
+/** Bytes of workgroup memory. */
+export const matrixBytes = (shape: MatrixShape): number =>
+  2 * matrixPatch(shape) + 16 * shape.subgroups * matrixSums(shape);
 
 /** Whether threads read weights from workgroup memory. */
 export const stagesWeights = ({ weights }: KernelFamily): boolean => weights !== 'storage';
@@ -29,16 +75,20 @@ export const stagesWeights = ({ weights }: KernelFamily): boolean => weights !==
 const WORKGROUP_BYTES = 16384;
 
 /** Pixels of a workgroup along x. */
-export const tileWidth = (shape: KernelShape): number => 4 * shape.threadsX;
+export const tileWidth = (shape: KernelShape): number =>
+  hasMatrices(shape) ? (shape.up ? 2 : 1) * shape.matrix.m : 4 * shape.threadsX;
 
 /** Pixels of a workgroup along y. */
-export const tileHeight = (shape: KernelShape): number => shape.threadsY * shape.rows;
+export const tileHeight = (shape: KernelShape): number =>
+  hasMatrices(shape) ? shape.rows * (shape.up ? 2 : 1) : shape.threadsY * shape.rows;
 
 /** Output channels of a workgroup. */
-export const tileOutputs = (shape: KernelShape): number => shape.groups * shape.outputs;
+export const tileOutputs = (shape: KernelShape): number =>
+  hasMatrices(shape) ? shape.subgroups * shape.matrix.n : shape.groups * shape.outputs;
 
 /** Threads of a workgroup. */
-export const threadsOf = (shape: KernelShape): number => shape.threadsX * shape.threadsY * shape.groups;
+export const threadsOf = (shape: KernelShape): number =>
+  hasMatrices(shape) ? shape.lanes * shape.subgroups : shape.threadsX * shape.threadsY * shape.groups;
 
 /**
  * Channels of an upsampled source whose weights are staged at a time: 4, 2 or 1, so that it fits; 0 where even one does
@@ -46,7 +96,7 @@ export const threadsOf = (shape: KernelShape): number => shape.threadsX * shape.
  *
  * @param up Whether the layer has an upsampled source.
  */
-export function stagedUpChannels(shape: KernelShape, up: boolean): number {
+export function stagedUpChannels(shape: ThreadShape, up: boolean): number {
   if (threadsOf(shape) > 256) return 0;
   const patch = 4 * (tileHeight(shape) + 2) * (shape.threadsX + 1);
   const staged = stagesWeights(shape) ? (shape.groups * shape.outputs) / 4 : 0;
@@ -56,5 +106,9 @@ export function stagedUpChannels(shape: KernelShape, up: boolean): number {
 }
 
 /** The shape as text, for names of pipelines and reports. */
-export const shapeName = (shape: KernelShape): string =>
-  `${shape.threadsX}x${shape.threadsY}x${shape.groups} threads of 4x${shape.rows}x${shape.outputs}${stagesWeights(shape) ? '' : ', weights unstaged'}`;
+export function shapeName(shape: KernelShape): string {
+  if (!hasMatrices(shape))
+    return `${shape.threadsX}x${shape.threadsY}x${shape.groups} threads of 4x${shape.rows}x${shape.outputs}${stagesWeights(shape) ? '' : ', weights unstaged'}`;
+  const { matrix, rows, subgroups } = shape;
+  return `${subgroups} subgroups of ${rows} rows of matrices ${matrix.m}x${matrix.n}x${matrix.k}`;
+}

@@ -1,10 +1,11 @@
 import { makeStages, type Stage } from '../chain';
-import { checkOptions, isSoftware, readNetworks, shapesOf } from '../configure';
+import { checkOptions, isSoftware, matricesFor, readNetworks, shapesOf } from '../configure';
 import { DenoiseError } from '../error';
 import { ALIGNMENT, COPY_DST, UNIFORM, lossOf } from '../gpu';
 import { checkSize } from '../images';
+import { chooseMatrices, type DeviceMatrices } from '../kernels/choose-matrices';
 import { candidateShapes, chooseShape } from '../kernels/choose-shape';
-import { tileHeight, type KernelFamily, type KernelShape } from '../kernels/shapes';
+import { hasMatrices, tileHeight, type KernelFamily, type KernelShape, type ThreadShape } from '../kernels/shapes';
 import { allocate } from '../memory';
 import type { DenoiserOptions, LayerSize } from '../options';
 import { pauses } from '../pace';
@@ -27,7 +28,10 @@ export interface TuneOptions extends Omit<DenoiserOptions, 'shapeOf'> {
   readonly onProgress?: (done: number) => void;
 }
 
-/** Shapes by layer, channels and pixels: plain data, the same keys in the same order for a network and a size. */
+/**
+ * Shapes by layer, channels and pixels: plain data, the same keys in the same order for a network and a size. Layers that
+ * subgroup matrices compute fastest are left out.
+ */
 export type TunedShapes = Readonly<Record<string, KernelFamily>>;
 
 /** Shapes that are measured of a layer. */
@@ -144,11 +148,18 @@ class Tuner {
   }
 
   /** Compiles the candidates of a layer, all at once; those that a driver refuses are left out. */
-  async compile({ kernels }: Stage, plan: LayerPlan, software: boolean): Promise<Trial[]> {
+  async compile(
+    { kernels }: Stage,
+    plan: LayerPlan,
+    software: boolean,
+    matrices: DeviceMatrices | undefined,
+  ): Promise<Trial[]> {
     const { layer, width, height, direct, up, result } = plan;
     const { maxStorageBufferBindingSize } = this.#device.limits;
     const compiled: Promise<Trial | undefined>[] = [];
-    for (const shape of candidateShapes(layer, width, height, software, CANDIDATES)) {
+    const multiplied = matrices && chooseMatrices(layer, matrices);
+    const shapes: KernelShape[] = candidateShapes(layer, width, height, software, CANDIDATES);
+    for (const shape of multiplied ? [multiplied, ...shapes] : shapes) {
       const planned = planLayer(layer, shape, direct, up, result, maxStorageBufferBindingSize);
       if (!planned) continue;
       const begun = kernels.convolution(planned).then(
@@ -167,8 +178,8 @@ class Tuner {
     return (await Promise.all(compiled)).filter((trial) => trial !== undefined);
   }
 
-  /** The family that is fastest for the layer; `undefined` where the time did not suffice. */
-  async best(trials: readonly Trial[]): Promise<KernelFamily | undefined> {
+  /** The shape that is fastest for the layer; `undefined` where the time did not suffice. */
+  async best(trials: readonly Trial[]): Promise<KernelShape | undefined> {
     const [usual] = trials;
     if (!usual) return undefined;
     await this.#learn(usual);
@@ -177,7 +188,7 @@ class Tuner {
     const finalists = [usual, ...others.slice(0, 2)];
     if (!(await this.#compare(finalists, FINAL))) return undefined;
     const fastest = finalists.reduce((a, b) => (b.spent < a.spent ? b : a));
-    return familyOf((fastest.spent < MARGIN * usual.spent ? fastest : usual).shape);
+    return (fastest.spent < MARGIN * usual.spent ? fastest : usual).shape;
   }
 
   /** What of a layer takes so many milliseconds. */
@@ -238,11 +249,12 @@ const workOf =
   };
 
 /** The family that has this shape for the layer. */
-const familyOf = ({ groups: _, ...family }: KernelShape): KernelFamily => family;
+const familyOf = ({ groups: _, ...family }: ThreadShape): KernelFamily => family;
 
 /**
  * Measures on the device which shapes compute a network's layers fastest for images of a size: how threads share the work
- * of a layer. Results of a denoiser do not depend on shapes. By default they are chosen by a model that is fitted to one
+ * of a layer. Results of a denoiser do not depend on shapes, but for the choice between subgroup matrices and threads,
+ * which round differently. By default they are chosen by a model that is fitted to one
  * large GPU (H100), and can be further from the best on others.
  *
  * Takes the memory of a denoiser for this size while it runs, and frees everything at its end. What it returns is plain
@@ -269,6 +281,7 @@ export async function tuneShapes(
   const { storage = 'f16', maxMemory = 2 ** 30, maxSubmitMs = 8 } = options;
   const software = isSoftware(device);
   const stages = makeStages(device, readNetworks(weights, options), storage);
+  const matrices = await matricesFor(device, options);
   const memory = await allocate(
     device,
     stages.map(({ network }) => network),
@@ -279,7 +292,7 @@ export async function tuneShapes(
       maxMemory,
       texelBytes: storage === 'f16' ? 8 : 16,
       maxBinding: device.limits.maxStorageBufferBindingSize,
-      shapeOf: shapesOf(device, undefined),
+      shapeOf: shapesOf(device, undefined, undefined),
     },
   );
   const clock = new TuneClock(device, lost);
@@ -293,7 +306,8 @@ export async function tuneShapes(
         if (!plan.result) continue;
         const key = keyOf(plan.layer, plan.width, plan.height);
         layers.set(key, { stage, plan });
-        tuned[key] ??= familyOf(chooseShape(plan.layer, plan.width, plan.height, software));
+        if (!(matrices && chooseMatrices(plan.layer, matrices)))
+          tuned[key] ??= familyOf(chooseShape(plan.layer, plan.width, plan.height, software));
       }
     const costOf = ({ plan }: { readonly plan: LayerPlan }) => plan.costOfRow * plan.workgroups[1];
     const order = [...layers].sort(([, a], [, b]) => costOf(b) - costOf(a));
@@ -304,14 +318,14 @@ export async function tuneShapes(
     for (const [i, [key, layer]] of order.entries()) {
       while (compiled.length < Math.min(order.length, i + 1 + AHEAD)) {
         const [, { stage, plan }] = order[compiled.length]!;
-        const begun = tuner.compile(stage, plan, software);
+        const begun = tuner.compile(stage, plan, software, matrices);
         begun.catch(() => undefined);
         compiled.push(begun);
       }
       const trials = await limit.within(compiled[i]!);
       const best = trials && (await tuner.best(trials));
       if (!best) break;
-      tuned[key] = best;
+      if (!hasMatrices(best)) tuned[key] = familyOf(best);
       done += costOf(layer);
       onProgress?.(done / total);
     }

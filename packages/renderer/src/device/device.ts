@@ -33,8 +33,9 @@ const RAISED_LIMITS = [
 const WELCOME_FEATURES = [
   'timestamp-query',
   'subgroups',
-  // With it @glanz/denoise loads and stores halves directly.
+  // With it @glanz/denoise loads and stores halves directly, with both it multiplies matrices of them.
   'shader-f16',
+  'chromium-experimental-subgroup-matrix',
   'float32-filterable',
   'texture-compression-bc',
   'texture-compression-astc',
@@ -53,7 +54,7 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
   if (!gpu) {
     throw new DeviceError(
       'renderer/no-webgpu',
-      'WebGPU is not available here: use a current browser over https; in Node pass the gpu of createGpu() of @glanz/renderer/node.',
+      'WebGPU is missing: use a current browser over https, or createGpu() of @glanz/renderer/node.',
     );
   }
   const adapter = await gpu.requestAdapter({ powerPreference: options.powerPreference ?? 'high-performance' });

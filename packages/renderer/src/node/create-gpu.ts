@@ -27,6 +27,11 @@ export interface GpuOptions {
    * reproducible tests; `never` fails without a GPU.
    */
   readonly software?: 'auto' | 'only' | 'never';
+  /**
+   * Toggles of Dawn to enable, for features that it hides, e.g. `allow_unsafe_apis` for
+   * `chromium-experimental-subgroup-matrix`. Default: none.
+   */
+  readonly toggles?: readonly string[];
 }
 
 /** WebGPU in Node, as {@link createGpu} found it. */
@@ -97,7 +102,11 @@ async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | st
   let reason = 'no adapter';
   for (const name of names) {
     try {
-      const gpu = createPinned(dawn, name === undefined ? [] : [`adapter=${name}`]);
+      const { toggles = [] } = options;
+      const gpu = createPinned(dawn, [
+        ...(name === undefined ? [] : [`adapter=${name}`]),
+        ...(toggles.length === 0 ? [] : [`enable-dawn-features=${toggles.join()}`]),
+      ]);
       const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
       if (!adapter) continue;
       const fault = objection(adapter.info, options);
@@ -175,7 +184,7 @@ async function search(options: GpuOptions, user: DriverEnvironment): Promise<Nod
  */
 export function createGpu(options: GpuOptions = {}): Promise<NodeGpu> {
   const { user, found } = memory();
-  const key = JSON.stringify([options.gpu ?? null, options.software ?? 'auto']);
+  const key = JSON.stringify([options.gpu ?? null, options.software ?? 'auto', options.toggles ?? []]);
   let result = found.get(key);
   if (!result) {
     // One search at a time: they switch the process's environment.

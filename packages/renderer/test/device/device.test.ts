@@ -16,10 +16,19 @@ function adapterWith(features: readonly string[]) {
 }
 
 it('devices have what an adapter offers of the features that are used, and nothing else', async () => {
-  const { gpu, requested } = adapterWith(['shader-f16', 'timestamp-query', 'clip-distances']);
+  const { gpu, requested } = adapterWith([
+    'shader-f16',
+    'chromium-experimental-subgroup-matrix',
+    'timestamp-query',
+    'clip-distances',
+  ]);
   await requestDevice({ gpu });
   expect(requested).toHaveLength(1);
-  expect([...requested[0]!.requiredFeatures!].sort()).toEqual(['shader-f16', 'timestamp-query']);
+  expect([...requested[0]!.requiredFeatures!].sort()).toEqual([
+    'chromium-experimental-subgroup-matrix',
+    'shader-f16',
+    'timestamp-query',
+  ]);
 });
 
 it('no feature is asked of an adapter that offers none', async () => {

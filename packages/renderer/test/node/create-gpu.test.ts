@@ -124,6 +124,16 @@ describe('createGpu', () => {
     expect(listed.some((gpu) => gpu.software && gpu.name === a.adapterName)).toBe(true);
   });
 
+  it('enables toggles of Dawn', async () => {
+    const featuresOf = async (options: { readonly toggles?: readonly string[] }) => {
+      const { gpu } = await createGpu({ software: 'only', ...options });
+      return [...(await gpu.requestAdapter())!.features];
+    };
+    const [usual, unsafe] = [await featuresOf({}), await featuresOf({ toggles: ['allow_unsafe_apis'] })];
+    expect(usual.filter((feature) => feature.startsWith('chromium-experimental'))).toEqual([]);
+    expect(unsafe.filter((feature) => feature.startsWith('chromium-experimental'))).not.toEqual([]);
+  });
+
   it('does nothing on import, in a worker thread too', async () => {
     const url = pathToFileURL(join(folder, 'import-only.mjs')).href;
     await build({

@@ -6,6 +6,8 @@ import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
 import { flopOf, layersOf, randomArchive, type NetworkSize } from '../denoise/networks';
 import { OnnxRuntime } from '../denoise/onnx-runtime';
 import { measurePeak } from '../denoise/peak';
+import { qualityCase } from '../denoise/quality-case';
+import { QUALITY_SCENES } from '../denoise/quality-set';
 import { VARIANTS, familyName } from '../denoise/variants';
 import { BenchError } from '../error';
 import { GpuClock } from '../gpu-clock';
@@ -158,11 +160,27 @@ export const benchmark: Benchmark = {
       type: 'string',
       help: 'folder of the npm package onnxruntime-web: its WebGPU evaluates the same networks, alternating with ours',
     },
+    toggles: {
+      type: 'string',
+      help: 'toggles of Dawn: allow_unsafe_apis,vulkan_enable_f16_on_nvidia for subgroup matrices on NVIDIA GPUs',
+    },
+    quality: {
+      type: 'string',
+      help: 'folder of the quality set: where subgroup matrices are used, errors with and without them beside those of Open Image Denoise; needs --weights',
+    },
+    weights: { type: 'string', help: 'folder of Open Image Denoise’s .tza archives, for --quality' },
     deadline: { type: 'string', help: 'seconds after which no further variant is tried; default 480' },
   },
   async run({ log, quick, gpu, values }) {
     const started = performance.now();
-    const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
+    const {
+      gpu: api,
+      adapterName,
+      software,
+    } = await createGpu({
+      ...(gpu === undefined ? {} : { gpu }),
+      ...(values['toggles'] === undefined ? {} : { toggles: values['toggles'].split(',') }),
+    });
     const device = await requestDevice({ gpu: api });
     const small = quick || software;
     const networks = listOf('networks', values['networks'], ['small', 'base', 'large'], [
@@ -245,6 +263,11 @@ export const benchmark: Benchmark = {
           );
         }
       });
+      // Once more without matrices, which are used where the device has them.
+      if (device.features.has('chromium-experimental-subgroup-matrix'))
+        await subject.with(network, { storage, subgroupMatrices: false }, (run) =>
+          whole(`${key}, without subgroup matrices`, key, run),
+        );
       if (onnx) {
         figures.push(
           timed(`${network}: largest difference of ONNX Runtime's WebGPU from its CPU`, '1', [
@@ -321,6 +344,22 @@ export const benchmark: Benchmark = {
         whole(`${key}, best variant for each layer`, key, run),
       );
       subject.destroy();
+    }
+    const { quality, weights } = values;
+    if (quality !== undefined) {
+      if (weights === undefined) throw new BenchError('bench/option', '--quality needs --weights.');
+      for (const scene of QUALITY_SCENES)
+        for (const samples of [1, 4, 16])
+          for (const row of ['oidn alb_nrm small', 'oidn alb_nrm base'] as const)
+            for (const subgroupMatrices of [true, false]) {
+              const subject = await qualityCase(quality, scene, samples, row);
+              const errors = await subject.errors(device, weights, { subgroupMatrices });
+              const name = `${scene}, ${samples} samples, ${row}${subgroupMatrices ? '' : ', without subgroup matrices'}`;
+              for (const kind of ['relmse', 'flip'] as const)
+                figures.push(
+                  timed(`${name}: ${kind} over the real library's`, '1', [errors[kind] / subject.expected[kind]]),
+                );
+            }
     }
     gpuClock?.destroy();
     onnx?.destroy();
