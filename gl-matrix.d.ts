@@ -45,6 +45,8 @@ declare module 'gl-matrix/esm/mat4.js' {
   export function multiply<Out extends GlMatrixOut>(out: Out, a: M, b: M): Out;
   /** `null` where the matrix has no inverse. */
   export function invert<Out extends GlMatrixOut>(out: Out, m: M): Out | null;
+  /** By radians about an axis; `null` for an axis of length 0. */
+  export function fromRotation<Out extends GlMatrixOut>(out: Out, angle: number, axis: M): Out | null;
   /** Scaled, then rotated by the unit quaternion xyzw, then translated. */
   export function fromRotationTranslationScale<Out extends GlMatrixOut>(
     out: Out,

@@ -13,7 +13,7 @@ import { decodeExr } from '@glanz/image/exr';
 import { encodeHdr } from '@glanz/image/hdr';
 import { readMaterialX } from '@glanz/openpbr/materialx';
 import { PathTracer } from '@glanz/renderer';
-import type { PerspectiveCamera, Scene } from '@glanz/scene';
+import type { Mesh, PerspectiveCamera, Scene } from '@glanz/scene';
 import { stepToGlb } from '../examples/cad';
 import cadMaterials from '../examples/cad-materials.json';
 import * as configurator from '../examples/configurator';
@@ -24,6 +24,7 @@ import * as lighting from '../examples/lighting';
 import * as gltf from '../examples/load-gltf';
 import * as materials from '../examples/materials';
 import * as materialx from '../examples/materialx';
+import { nod } from '../examples/pose';
 import { productShot } from '../examples/product-shot';
 import * as progressive from '../examples/progressive';
 import { createSpheres } from '../examples/spheres';
@@ -128,6 +129,25 @@ describe('cameras', () => {
       const codes = await cameras.photograph(tracer);
       expect(codes.length).toBe(4 * SIZE.width * SIZE.height);
     }));
+});
+
+test('a head nods', async () => {
+  const scene = exampleScene();
+  const tracer = await PathTracer.create(device, scene, { ...SIZE, maxDepth: 2 });
+  const [head] = scene.meshes;
+  const frames: (string | undefined)[] = [];
+  await nod(
+    {
+      replaceMesh: (name: string, mesh: Mesh) => {
+        frames.push(mesh.pose && name);
+        return frames.length < 4 ? tracer.replaceMesh(name, mesh) : Promise.resolve();
+      },
+      render: () => (frames.length < 4 ? tracer.render({ samples: 1 }) : []),
+    } as unknown as PathTracer,
+    head as Mesh,
+  );
+  expect(frames).toEqual(Array(30).fill(head?.name));
+  tracer.destroy();
 });
 
 describe('layers', () => {

@@ -1,8 +1,8 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, arrays beyond a binding,
-// animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection), and what saves
-// images, lies beside it and is fetched by import() when it is needed.
+// animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection,
+// meshes that are replaced), and what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -47,6 +47,7 @@ const LATER = {
   './film-kernels': 'glanz-viewer.film-kernels.min.js',
   './fit-textures': 'glanz-viewer.fit-textures.min.js',
   './fit-images': 'glanz-viewer.fit-images.min.js',
+  './replace-mesh': 'glanz-viewer.replace-mesh.min.js',
 };
 
 /** Where the modules of the sources among them are, from the viewer's folder. */
@@ -68,6 +69,7 @@ const SOURCES = {
   './film-kernels': '../renderer/src/integrator/film-kernels',
   './fit-textures': '../renderer/src/scene/fit-textures',
   './fit-images': '../gltf/src/fit-images',
+  './replace-mesh': '../renderer/src/scene/replace-mesh',
 };
 
 const pick = (...modules) => Object.fromEntries(modules.map((module) => [module, LATER[module]]));
@@ -155,7 +157,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|fit-images|paged\/pages|paged-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|fit-images|replace-mesh|paged\/pages|paged-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

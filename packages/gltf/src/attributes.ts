@@ -1,6 +1,7 @@
 import type { Mesh, SceneWarning } from '@glanz/scene';
+import { makeUnit, unitNormals } from '@glanz/scene/pose';
 import type { UvSets } from './materials';
-import { makeUnit, unitNormals, windByNormals } from './normals';
+import { windByNormals } from './normals';
 import type { PrimitiveData } from './primitive';
 
 /** Whether every number is finite. */

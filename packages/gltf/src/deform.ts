@@ -1,8 +1,8 @@
 import type { Material, Mesh, SceneWarning } from '@glanz/scene';
+import { applySkin, blendTargets, unitNormals } from '@glanz/scene/pose';
 import { withoutUnusedVertices } from './attributes';
 import type { Matrix } from './matrix';
-import { unitNormals } from './normals';
-import { morphed, skinned, type Influences } from './pose';
+import { jointNumbers, skinOf, targetsOf, type Influences } from './pose';
 import type { PrimitiveData } from './primitive';
 import { tangentSet, withTangents } from './tangents';
 
@@ -31,8 +31,9 @@ export function deformed(
   warnings: SceneWarning[],
 ): Mesh {
   const blended = weights.some((weight) => weight !== 0);
-  let made = blended ? morphed(base, primitive, weights) : base;
-  if (skin) made = skinned(made, skin.influences, skin.matrices);
+  const isUsed = (target: number) => (weights[target] ?? 0) !== 0;
+  let made = blended ? blendTargets(base, targetsOf(primitive, isUsed), weights) : base;
+  if (skin) made = applySkin(made, skinOf(skin.influences, skin.matrices), jointNumbers(skin.matrices));
   // Blended normals are shorter than 1 and may cancel out.
   if ((skin || blended) && made.normals)
     unitNormals(made.normals, made.positions, made.indices, (message) =>

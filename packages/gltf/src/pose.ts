@@ -1,34 +1,19 @@
-import type { Mesh, SceneWarning } from '@glanz/scene';
-import { adjoint, determinant, fromMat4, transpose } from 'gl-matrix/esm/mat3.js';
+import type { MeshSkin, MorphTarget, SceneWarning } from '@glanz/scene';
 import { multiply } from 'gl-matrix/esm/mat4.js';
-import { add, scale, transformMat3 } from 'gl-matrix/esm/vec3.js';
 import { identity, type Matrix } from './matrix';
 import type { PrimitiveData } from './primitive';
 
-/** A mesh with its morph targets blended in by `weights` (glTF 2.0, section 3.7.2.2). */
-export function morphed(mesh: Mesh, primitive: PrimitiveData, weights: readonly number[]): Mesh {
-  const add = (values: Float32Array<ArrayBuffer> | undefined, semantic: string, stride: number) => {
-    if (!values) return undefined;
-    const sum = values.slice();
-    primitive.json.targets?.forEach((_, index) => {
-      const weight = weights[index] ?? 0;
-      const deltas = weight === 0 ? undefined : primitive.target(index, semantic);
-      if (!deltas) return;
-      for (let v = 0; 3 * v < deltas.length && stride * v < sum.length; v++) {
-        for (let k = 0; k < 3; k++) {
-          const moved = Math.fround((sum[stride * v + k] as number) + weight * (deltas[3 * v + k] as number));
-          if (Number.isFinite(moved)) sum[stride * v + k] = moved;
-        }
-      }
-    });
-    return sum;
-  };
-  const result: Mesh = { ...mesh, positions: add(mesh.positions, 'POSITION', 3) as Float32Array<ArrayBuffer> };
-  const normals = add(mesh.normals, 'NORMAL', 3);
-  if (normals) result.normals = normals;
-  const tangents = add(mesh.tangents, 'TANGENT', 4);
-  if (tangents) result.tangents = tangents;
-  return result;
+const TARGET_KEYS = { positions: 'POSITION', normals: 'NORMAL', tangents: 'TANGENT' } as const;
+
+/** The morph targets of a primitive. Those whose weight is 0 may be left empty: see `isUsed`. */
+export function targetsOf(primitive: PrimitiveData, isUsed: (index: number) => boolean = () => true): MorphTarget[] {
+  return (primitive.json.targets ?? []).map((_, index) =>
+    isUsed(index)
+      ? Object.fromEntries(
+          Object.entries(TARGET_KEYS).map(([key, semantic]) => [key, primitive.target(index, semantic)]),
+        )
+      : {},
+  );
 }
 
 /** With a tolerance, since exporters invert matrices in single precision. */
@@ -141,72 +126,30 @@ export function influencesOf(
 }
 
 /**
- * A mesh in the pose of its skeleton, in world space (glTF 2.0, section 3.7.3.3: the node's own transform is ignored).
+ * The skin of a primitive: influences that have no effect get the weight 0.
  *
  * @param sets Of {@link influencesOf}.
+ * @param matrices Of {@link jointMatrices}; undefined: the joint has no effect.
  */
-export function skinned(mesh: Mesh, sets: readonly Influences[], matrices: readonly (Matrix | undefined)[]): Mesh {
-  const vertices = mesh.positions.length / 3;
-  const positions = new Float32Array(mesh.positions.length);
-  const normals = mesh.normals && new Float32Array(mesh.normals.length);
-  const tangents = mesh.tangents?.slice();
-  const blended = new Float64Array(16),
-    translation = blended.subarray(12);
-  const linear = new Float64Array(9),
-    cofactors = new Float64Array(9);
-  const vector: [number, number, number] = [0, 0, 0];
-  /** A vector of `source`, multiplied by a 3 × 3 matrix. */
-  const transformed = (source: Float32Array, at: number, matrix: Float64Array) => {
-    for (let k = 0; k < 3; k++) vector[k] = source[at + k] as number;
-    return transformMat3(vector, vector, matrix);
-  };
-  for (let v = 0; v < vertices; v++) {
-    blended.fill(0);
-    let total = 0;
-    for (const { joints: indices, weights } of sets) {
-      for (let k = 0; k < 4; k++) {
-        const weight = weights[4 * v + k] as number;
-        const matrix = matrices[indices[4 * v + k] as number];
-        if (!(weight > 0 && weight < Infinity) || !matrix) continue;
-        total += weight;
-        for (let i = 0; i < 16; i++) blended[i] = (blended[i] as number) + weight * (matrix[i] as number);
-      }
+export function skinOf(sets: readonly Influences[], matrices: readonly (Matrix | undefined)[]): MeshSkin {
+  const { length = 0 } = sets[0]?.joints ?? {};
+  const joints = new Uint16Array(sets.length * length);
+  const weights = new Float32Array(sets.length * length);
+  sets.forEach((set, nth) => {
+    for (let i = 0; i < length; i++) {
+      const weight = set.weights[i] as number,
+        joint = set.joints[i] as number;
+      if (!(weight > 0 && weight < Infinity) || !matrices[joint]) continue;
+      joints[nth * length + i] = joint;
+      weights[nth * length + i] = weight;
     }
-    // A vertex without weights stays where it is.
-    if (total === 0) blended.set([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
-    else for (let i = 0; i < 16; i++) blended[i] = (blended[i] as number) / total;
-    fromMat4(linear, blended);
-    write(positions, 3 * v, add(vector, transformed(mesh.positions, 3 * v, linear), translation));
-    if (normals && mesh.normals) {
-      // The cofactors are the inverse transpose times the determinant.
-      transpose(cofactors, adjoint(cofactors, linear));
-      write(
-        normals,
-        3 * v,
-        scale(vector, transformed(mesh.normals, 3 * v, cofactors), determinant(linear) < 0 ? -1 : 1),
-      );
-      normalize(normals, 3 * v);
-    }
-    if (tangents && mesh.tangents) {
-      write(tangents, 4 * v, transformed(mesh.tangents, 4 * v, linear));
-      normalize(tangents, 4 * v);
-    }
-  }
-  const result: Mesh = { ...mesh, positions };
-  if (normals) result.normals = normals;
-  if (tangents) result.tangents = tangents;
-  return result;
+  });
+  return { jointCount: matrices.length, joints, weights };
 }
 
-/** Numbers that are not finite in single precision become 0. */
-function write(out: Float32Array, at: number, vector: readonly number[]): void {
-  for (let k = 0; k < 3; k++) {
-    const value = Math.fround(vector[k] as number);
-    out[at + k] = Number.isFinite(value) ? value : 0;
-  }
-}
-
-function normalize(values: Float32Array, at: number): void {
-  const length = Math.hypot(values[at] as number, values[at + 1] as number, values[at + 2] as number);
-  if (length > 0) for (let k = 0; k < 3; k++) values[at + k] = (values[at + k] as number) / length;
+/** Matrices of joints as poses have them; those without effect are 0. */
+export function jointNumbers(matrices: readonly (Matrix | undefined)[]): Float64Array<ArrayBuffer> {
+  const numbers = new Float64Array(16 * matrices.length);
+  matrices.forEach((matrix, j) => matrix && numbers.set(matrix, 16 * j));
+  return numbers;
 }

@@ -1,6 +1,15 @@
-import { createScene, type Light, type Mesh, type Scene, type SceneAnimation, type SceneWarning } from '@glanz/scene';
+import {
+  createScene,
+  type Light,
+  type Mesh,
+  type MeshRig,
+  type Scene,
+  type SceneAnimation,
+  type SceneWarning,
+} from '@glanz/scene';
+import { createRig, poseMesh } from '@glanz/scene/pose';
 import { morphingNodes, posesAt, type NodePose } from './animation';
-import { readPrimitive } from './attributes';
+import { readPrimitive, withoutUnusedVertices } from './attributes';
 import { checkDocument } from './check/index';
 import { openContainer } from './container';
 import { deformed, type Deformation } from './deform';
@@ -15,9 +24,10 @@ import { atMoment, type LoadGltfOptions } from './load';
 import { readMaterial, type UvSets } from './materials';
 import { identity, isFinite4x4, type Matrix } from './matrix';
 import { indexOf, instancesOf, isOpaque, placedNodes, sceneToShow, weightsOf, type Placed } from './nodes';
-import { influencesOf, isSkinnable, jointMatrices, type Influences } from './pose';
+import { influencesOf, isSkinnable, jointMatrices, jointNumbers, skinOf, targetsOf, type Influences } from './pose';
 import { openPrimitive, type PrimitiveData, type PrimitiveReader } from './primitive';
 import { openSource, type GltfInput, type Source } from './source';
+import { tangentSet } from './tangents';
 
 /** What differs between two poses of a scene, by the indices of the scene's lists. */
 export interface PoseChange {
@@ -42,6 +52,8 @@ interface Opened {
   readonly data: PrimitiveData;
   readonly base: Mesh;
   readonly influences: readonly Influences[] | undefined;
+  /** What poses follow from, where all that a pose changes is where its vertices are. */
+  readonly rig: MeshRig | undefined;
 }
 
 /** A mesh that a skin or morph targets deform. */
@@ -232,9 +244,14 @@ export class ScenePoser {
       const numbers = [...weights, ...(matrices ?? []).flatMap((matrix) => matrix ?? [])];
       if (same(part.last, numbers)) continue;
       part.last = numbers;
-      const opened = (part.opened ??= this.#open(part, matrices?.length));
+      const opened = (part.opened ??= this.#open(part, matrices));
       if (!opened) continue;
-      const { data, base, influences } = opened;
+      const { data, base, influences, rig } = opened;
+      const pose = rig && { joints: matrices && jointNumbers(matrices), weights: weights.slice(0, rig.targets.length) };
+      if (pose && (pose.joints ?? []).every(Number.isFinite)) {
+        meshes.push({ mesh: part.mesh, deformed: poseMesh(rig, pose) });
+        continue;
+      }
       const skin: Deformation['skin'] = matrices && influences && { matrices, influences };
       const made = deformed(base, data, { weights, skin }, this.#materialsOf(part), part.path, warnings);
       meshes.push({ mesh: part.mesh, deformed: made });
@@ -243,7 +260,8 @@ export class ScenePoser {
   }
 
   /** Reads a mesh that is deformed for the first time. */
-  #open({ mesh, primitive, path, instance }: Deforming, joints: number | undefined): Opened | undefined {
+  #open(part: Deforming, matrices: readonly (Matrix | undefined)[] | undefined): Opened | undefined {
+    const { mesh, primitive, path, instance } = part;
     const warnings: SceneWarning[] = [];
     const { name } = this.#scene.meshes[mesh] as Mesh;
     const { material } = this.#scene.instances[instance] as Scene['instances'][number];
@@ -266,9 +284,28 @@ export class ScenePoser {
         return targets.get(key);
       },
     };
-    const influences =
-      joints === undefined ? undefined : influencesOf(name, opened, base.positions.length / 3, joints, warnings);
-    return { data, base, influences };
+    const influences = matrices && influencesOf(name, opened, base.positions.length / 3, matrices.length, warnings);
+    return { data, base, influences, rig: this.#rigOf(part, data, base, influences, matrices) };
+  }
+
+  /** Undefined where vertices are left out, or tangents are computed for each pose. */
+  #rigOf(
+    part: Deforming,
+    data: PrimitiveData,
+    base: Mesh,
+    influences: readonly Influences[] | undefined,
+    matrices: readonly (Matrix | undefined)[] | undefined,
+  ): MeshRig | undefined {
+    const hasTangents =
+      base.tangents !== undefined || this.#materialsOf(part).every((material) => tangentSet(material) === undefined);
+    if (!hasTangents || withoutUnusedVertices(base) !== base) return undefined;
+    try {
+      const skin = matrices && influences?.length ? skinOf(influences, matrices) : undefined;
+      return createRig(base, { skin, targets: targetsOf(data) });
+    } catch {
+      // Targets of another length or with numbers that are not finite: only the loader's own way takes them.
+      return undefined;
+    }
   }
 
   #uvSetsOf(material: number | undefined): UvSets {

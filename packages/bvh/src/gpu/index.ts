@@ -2,7 +2,7 @@ export { GpuBuilder } from './builder';
 export { blasInOrder } from './in-order';
 export { gpuBuildMemory } from './plan';
 export { readGpuBlas } from './read';
-export { GpuRefitter, type RefitBlas } from './refit';
+export { GpuRefitter, type PreparedRefit, type RefitBlas } from './refit';
 export type {
   GpuBlas,
   GpuBlasOptions,

@@ -147,19 +147,25 @@ function paramsOf(steps: readonly Step[]): Uint32Array<ArrayBuffer> {
   return data;
 }
 
+/** Makes the buffer of all steps' numbers. */
+function makeUniforms(device: GPUDevice, steps: readonly Step[]): GPUBuffer {
+  const size = PARAMS_STRIDE * steps.length;
+  const uniforms = device.createBuffer({ label: 'bvh numbers', size, usage: UNIFORM | COPY_DST });
+  device.queue.writeBuffer(uniforms, 0, paramsOf(steps));
+  return uniforms;
+}
+
 /**
- * Records a step.
+ * Binds what a step reads and writes.
  *
  * @param uniforms Numbers, of which the step's are at `index`.
  */
-function encodeStep(
+function bindStep(
   device: GPUDevice,
-  pass: GPUComputePassEncoder,
-  { kernel, params, buffers, workgroups }: Step,
+  { kernel, params, buffers }: Step,
   uniforms: GPUBuffer,
   index: number,
-): void {
-  if (workgroups === 0) return;
+): GPUBindGroup {
   const entries = Object.entries(buffers).map(([binding, buffer]): GPUBindGroupEntry => ({
     binding: Number(binding),
     resource: { buffer },
@@ -169,11 +175,44 @@ function encodeStep(
       binding: 0,
       resource: { buffer: uniforms, offset: PARAMS_STRIDE * index, size: PARAMS_BYTES },
     });
+  return device.createBindGroup({ layout: kernel.layout, entries });
+}
+
+/** Records a step. */
+function encodeStep(
+  device: GPUDevice,
+  pass: GPUComputePassEncoder,
+  { kernel, workgroups }: Step,
+  group: GPUBindGroup,
+): void {
   pass.setPipeline(kernel.pipeline);
-  pass.setBindGroup(0, device.createBindGroup({ layout: kernel.layout, entries }));
+  pass.setBindGroup(0, group);
   // Rows of workgroups, of which the last may be longer than needed.
   const rows = Math.ceil(workgroups / device.limits.maxComputeWorkgroupsPerDimension);
   pass.dispatchWorkgroups(Math.ceil(workgroups / rows), rows);
+}
+
+/** Steps that are recorded repeatedly: what they bind is made once. */
+export interface PreparedSteps {
+  /** Records them in a pass. */
+  encode(encoder: GPUCommandEncoder): void;
+  /** Frees what was allocated. What is submitted still runs. */
+  destroy(): void;
+}
+
+/** Prepares steps. */
+export function prepareSteps(device: GPUDevice, label: string, steps: readonly Step[]): PreparedSteps {
+  const some = steps.filter(({ workgroups }) => workgroups > 0);
+  const uniforms = makeUniforms(device, some);
+  const groups = some.map((step, i) => bindStep(device, step, uniforms, i));
+  return {
+    encode(encoder) {
+      const pass = encoder.beginComputePass({ label });
+      some.forEach((step, i) => encodeStep(device, pass, step, groups[i] as GPUBindGroup));
+      pass.end();
+    },
+    destroy: () => uniforms.destroy(),
+  };
 }
 
 /** Submits phases, each in a pass. */
@@ -183,12 +222,7 @@ export function submitPhases(
   { globals, clock }: { readonly globals?: GPUBuffer; readonly clock?: PassClock | undefined } = {},
 ): void {
   const all = phases.flatMap(([, steps]) => steps);
-  const uniforms = device.createBuffer({
-    label: 'bvh numbers',
-    size: PARAMS_STRIDE * all.length,
-    usage: UNIFORM | COPY_DST,
-  });
-  device.queue.writeBuffer(uniforms, 0, paramsOf(all));
+  const uniforms = makeUniforms(device, all);
   const encoder = device.createCommandEncoder({ label: 'bvh build' });
   if (globals) encoder.clearBuffer(globals);
   let index = 0;
@@ -197,7 +231,10 @@ export function submitPhases(
       label: `bvh ${name}`,
       ...(clock ? { timestampWrites: clock.writes(name) } : {}),
     });
-    for (const step of steps) encodeStep(device, pass, step, uniforms, index++);
+    for (const step of steps) {
+      const at = index++;
+      if (step.workgroups > 0) encodeStep(device, pass, step, bindStep(device, step, uniforms, at));
+    }
     pass.end();
   }
   clock?.resolve(encoder);

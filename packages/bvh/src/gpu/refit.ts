@@ -1,13 +1,19 @@
 import { BvhError } from '../error';
 import { COPY_SRC, createBuffers, readBuffer, STORAGE, type Kernel } from './device';
 import { inputOf } from './input';
-import { compileHeights, compileRefit, compileSort, type InputKind } from './kernels';
+import { compileHeights, compileRefit, compileSort, compileTriangles } from './kernels';
 import type { GpuBlas, GpuMesh } from './options';
-import { sortPass, submitPhases, type Step } from './passes';
+import { prepareSteps, sortPass, submitPhases, type PreparedSteps, type Step } from './passes';
 import { GLOBALS_BYTES, planBuild } from './plan';
 
 /** What {@link GpuRefitter} needs of a hierarchy: one of `GpuBuilder`, or of the CPU in buffers. */
 export type RefitBlas = Pick<GpuBlas, 'depth' | 'nodeCount' | 'nodes' | 'triangleIndices'>;
+
+/** Bytes of a packed triangle. */
+const TRIANGLE_BYTES = 48;
+
+/** A refit that is recorded repeatedly; see {@link GpuRefitter.prepare}. */
+export type PreparedRefit = PreparedSteps;
 
 /** Nodes of a height. */
 interface Height {
@@ -30,7 +36,7 @@ export class GpuRefitter {
   /** Nodes by height. */
   readonly #order: GPUBuffer;
   readonly #heights: readonly Height[];
-  readonly #kernels = new Map<InputKind, Promise<Kernel>>();
+  readonly #kernels = new Map<string, Promise<Kernel>>();
   #destroyed = false;
 
   private constructor(device: GPUDevice, blas: RefitBlas, order: GPUBuffer, heights: readonly Height[]) {
@@ -97,15 +103,29 @@ export class GpuRefitter {
    * @throws {BvhError} `bvh/options`, `bvh/positions`, `bvh/indices`, `bvh/pipeline`, `bvh/destroyed`.
    */
   async refit(mesh: GpuMesh): Promise<void> {
+    const prepared = await this.prepare(mesh);
+    const encoder = this.#device.createCommandEncoder({ label: 'bvh refit' });
+    prepared.encode(encoder);
+    this.#device.queue.submit([encoder.finish()]);
+    prepared.destroy();
+  }
+
+  /**
+   * Prepares {@link refit} for a mesh whose positions change repeatedly in the same buffer: each time, what it
+   * returns is recorded after what writes them.
+   *
+   * @param triangles Also packs the triangles in leaf order, as {@link GpuBlas.triangles}, into this buffer, of 48 bytes
+   * each.
+   * @throws As {@link refit}.
+   */
+  async prepare(mesh: GpuMesh, triangles?: GPUBuffer): Promise<PreparedRefit> {
     const { kind, buffers } = inputOf(mesh);
-    let compiled = this.#kernels.get(kind);
-    if (!compiled) {
-      this.#kernels.set(kind, (compiled = compileRefit(this.#device, kind)));
-      // A failure is not kept: the next call tries again.
-      compiled.catch(() => this.#kernels.delete(kind));
-    }
-    const kernel = await compiled;
-    if (this.#destroyed) throw new BvhError('bvh/destroyed', 'This GpuRefitter was destroyed: create another one.');
+    const device = this.#device;
+    const [kernel, pack] = await Promise.all([
+      this.#kernel(`refit ${kind}`, () => compileRefit(device, kind)),
+      triangles && this.#kernel(`triangles ${kind}`, () => compileTriangles(device, kind)),
+    ]);
+    this.#expectAlive();
     const { nodes, triangleIndices } = this.#blas;
     const numbers = { vertices: mesh.vertexCount, maxLeaf: 0, maxDepth: 0 };
     const steps = this.#heights.map(({ first, count }): Step => ({
@@ -114,7 +134,30 @@ export class GpuRefitter {
       buffers: { ...buffers, 3: triangleIndices, 4: this.#order, 5: nodes },
       workgroups: Math.ceil(count / 256),
     }));
-    submitPhases(this.#device, [['refit', steps]]);
+    if (pack && triangles) {
+      const count = Math.floor(triangles.size / TRIANGLE_BYTES);
+      steps.push({
+        kernel: pack,
+        params: { ...numbers, count },
+        buffers: { ...buffers, 3: triangleIndices, 4: triangles },
+        workgroups: Math.ceil(count / 256),
+      });
+    }
+    return prepareSteps(device, 'bvh refit', steps);
+  }
+
+  #kernel(name: string, compile: () => Promise<Kernel>): Promise<Kernel> {
+    let compiled = this.#kernels.get(name);
+    if (!compiled) {
+      this.#kernels.set(name, (compiled = compile()));
+      // A failure is not kept: the next call tries again.
+      compiled.catch(() => this.#kernels.delete(name));
+    }
+    return compiled;
+  }
+
+  #expectAlive(): void {
+    if (this.#destroyed) throw new BvhError('bvh/destroyed', 'This GpuRefitter was destroyed: create another one.');
   }
 
   /** Frees what was allocated; the hierarchy stays. */

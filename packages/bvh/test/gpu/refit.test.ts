@@ -1,6 +1,6 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, expect, test } from 'vitest';
-import { buildBlas } from '../../src/index';
+import { buildBlas, packTriangles } from '../../src/index';
 import { best } from '../../src/builders/best';
 import { GpuBuilder, GpuRefitter, readGpuBlas } from '../../src/gpu/index';
 import { refitBlas } from '../../src/refit';
@@ -10,6 +10,18 @@ import { checkBlas } from '../structure';
 import { buildOnGpu, upload, uploadMesh } from './builds';
 
 afterEach(() => expectNoGpuErrors());
+
+async function read(device: GPUDevice, buffer: GPUBuffer): Promise<Uint8Array> {
+  const { size } = buffer;
+  const staging = device.createBuffer({ size, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+  const encoder = device.createCommandEncoder();
+  encoder.copyBufferToBuffer(buffer, 0, staging, 0, size);
+  device.queue.submit([encoder.finish()]);
+  await staging.mapAsync(GPUMapMode.READ);
+  const bytes = new Uint8Array(staging.getMappedRange().slice(0));
+  staging.destroy();
+  return bytes;
+}
 
 const moved = (positions: Float32Array, by: number): Float32Array<ArrayBuffer> =>
   new Float32Array(positions.map((x, i) => x * (1 + 0.5 * Math.sin(by * i))));
@@ -68,4 +80,32 @@ test('fits trees of the CPU in buffers, whatever the order of their nodes', asyn
     await expect(refitter.refit(input)).rejects.toEqual(expect.objectContaining({ code: 'bvh/destroyed' }));
     for (const buffer of [nodes, triangleIndices, input]) buffer.destroy();
   }
+});
+
+test('a prepared refit is recorded repeatedly, and packs triangles', async () => {
+  const device = await testDevice({ defaultLimits: true, features: [] });
+  const builder = await GpuBuilder.create(device);
+  const mesh = strewn(3000, 0.1, randomNumbers(7));
+  const { gpu, blas } = await buildOnGpu(device, builder, mesh);
+  const refitter = await GpuRefitter.create(device, gpu);
+  const input = uploadMesh(device, mesh);
+  const triangles = device.createBuffer({
+    size: 48 * gpu.triangleCount,
+    usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC,
+  });
+  const prepared = await refitter.prepare(input, triangles);
+  for (const by of [1, 2, 3]) {
+    const now = { ...mesh, positions: moved(mesh.positions, by) };
+    device.queue.writeBuffer(input.positions, 0, now.positions);
+    const encoder = device.createCommandEncoder();
+    prepared.encode(encoder);
+    device.queue.submit([encoder.finish()]);
+    refitBlas(blas, now);
+    expect((await readGpuBlas(device, gpu)).nodes).toEqual(blas.nodes);
+    expect(await read(device, triangles)).toEqual(new Uint8Array(packTriangles(blas, now).buffer));
+  }
+  prepared.destroy();
+  refitter.destroy();
+  await expect(refitter.prepare(input)).rejects.toEqual(expect.objectContaining({ code: 'bvh/destroyed' }));
+  for (const thing of [triangles, input, gpu, builder]) thing.destroy();
 });

@@ -8,6 +8,9 @@ import { readBuffer } from '../storage/read-buffer';
 import { uploadPace } from '../storage/upload-pace';
 import type { GpuBuilds, Hierarchy, HierarchyOnGpu, MeshRegion } from './hierarchy';
 
+// In the same chunk: what poses rigs shares the most with it.
+export { poseOnGpu } from './pose/pose-mesh';
+
 /** Bytes of a node, of a packed triangle, and of a word of the attributes. */
 const NODE_BYTES = 64;
 const TRIANGLE_BYTES = 48;

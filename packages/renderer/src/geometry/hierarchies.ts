@@ -49,7 +49,7 @@ export function createYielder(sliceMs: number = SLICE_MS): () => Promise<void> {
   };
 }
 
-/** What builds on the GPU: a chunk of its own, for most scenes have no use for it. */
+/** What builds and poses on the GPU: a chunk of its own, for most scenes have no use for it. */
 export const loadGpuTrees = () => import('./gpu-trees');
 
 /** Triangles of all meshes. */

@@ -277,6 +277,11 @@ export class GpuScene {
     this.#writeNodes(placement.allNodes());
   }
 
+  /** An array of shapes. */
+  shapes(name: ShapeArray): GPUBuffer | PagedArray {
+    return this.#resources.buffer(name) as GPUBuffer | PagedArray;
+  }
+
   /** Writes parts of the shapes, also after an edit that had written others there was taken back. */
   writeShapes(slices: Iterable<ShapeSlice>): void {
     for (const { buffer, offset, data } of slices) this.#resources.write(buffer, data, offset);
@@ -314,7 +319,7 @@ export class GpuScene {
     const pace = uploadPace(this.#device);
     const written: Promise<void>[] = [];
     this.#geometry.placement.takeChangedNodes();
-    const arrayOf = (name: ShapeArray) => this.#resources.buffer(name) as GPUBuffer | PagedArray;
+    const arrayOf = (name: ShapeArray) => this.shapes(name);
     const { verified: placed } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
       this.#geometry.blas.forEach((tree, i) => tree?.gpu?.place(arrayOf, this.#geometry.regions[i] as MeshRegion)),
     );

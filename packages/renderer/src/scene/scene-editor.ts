@@ -21,8 +21,8 @@ import {
   prepareHierarchies,
   type Geometry,
 } from '../geometry/geometry';
-import type { HierarchyOptions } from '../geometry/hierarchies';
-import type { Hierarchy, MeshRegion } from '../geometry/hierarchy';
+import { loadGpuTrees, type HierarchyOptions } from '../geometry/hierarchies';
+import type { Hierarchy } from '../geometry/hierarchy';
 import { emittedRadiance, findMaterial } from '../materials/materials';
 import { parametersOf } from '../materials/parameters';
 import { isShown } from '../geometry/placement';
@@ -44,12 +44,12 @@ export function ownScene(scene: Scene): Scene {
  */
 export class SceneEditor {
   readonly scene: Scene;
-  readonly #gpu: GpuScene;
-  readonly #builders: HierarchyOptions;
+  readonly gpu: GpuScene;
+  readonly builders: HierarchyOptions;
   /** Materials that instances wear without a variant. */
   readonly #plain: number[];
   /** Hierarchies of meshes that are or were in the scene, so that a part that comes back costs nothing to build. */
-  readonly #trees = new WeakMap<Mesh, Hierarchy>();
+  readonly trees = new WeakMap<Mesh, Hierarchy>();
   /** Instances by name, which no edit changes; made at the first look-up by name. */
   #named: Map<string, number[]> | undefined;
   #geometry: Geometry;
@@ -60,8 +60,8 @@ export class SceneEditor {
   constructor(scene: Scene, geometry: Geometry, gpu: GpuScene, builders: HierarchyOptions) {
     this.scene = scene;
     this.#geometry = geometry;
-    this.#gpu = gpu;
-    this.#builders = builders;
+    this.gpu = gpu;
+    this.builders = builders;
     this.#environment = new EnvironmentEditor(scene, gpu);
     this.#plain = scene.instances.map(({ material }) => material);
     this.#remember(scene, geometry.blas);
@@ -99,7 +99,7 @@ export class SceneEditor {
             name.startsWith('emission_') &&
             JSON.stringify(before[name as keyof typeof before]) !== JSON.stringify(value),
         );
-        return this.#gpu.updateMaterial(index, emission);
+        return this.gpu.updateMaterial(index, emission);
       },
       undo: () => set(before),
     };
@@ -116,7 +116,7 @@ export class SceneEditor {
       isStale: () => lights[index] !== light,
       apply: () => {
         lights[index] = next;
-        return this.#gpu.updateLights();
+        return this.gpu.updateLights();
       },
       undo: () => (lights[index] = light),
     };
@@ -197,49 +197,35 @@ export class SceneEditor {
   }
 
   async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<SceneChange> {
-    const index =
-      typeof nameOrIndex === 'number' ? nameOrIndex : this.scene.meshes.findIndex(({ name }) => name === nameOrIndex);
-    if (!this.scene.meshes[index]) throw notFound('renderer/mesh', nameOrIndex, this.scene.meshes);
-    validateScene({ ...createScene(), meshes: [mesh] });
-    const changed = () => ({ ...this.scene, meshes: this.scene.meshes.map((old, i) => (i === index ? mesh : old)) });
-    await this.#build(changed());
-    const before = this.scene.meshes[index] as Mesh;
-    const region = this.#geometry.regions[index] as MeshRegion;
-    const tree = this.#trees.get(mesh);
-    const next = changed();
-    const blas = this.#blas(next);
-    const { placement, triangleCount, hasVertexColors } = layOutGeometry(next, blas);
-    const fits =
-      placement.nodeCapacity <= this.#geometry.tlasNodes &&
-      tree &&
-      tree.nodeCount <= region.nodes &&
-      tree.triangleIndices.length <= region.triangles &&
-      attributeWords(mesh) <= region.words;
-    if (!fits) return this.#reshape(changed);
-    const geometry: Geometry = { ...this.#geometry, placement, blas, hasVertexColors, triangleCount };
-    const old = this.#trees.get(before);
-    return {
-      ...this.#commit(next, geometry, () => {
-        this.#gpu.writeShapes(meshSlices(index, mesh, tree, region));
-        return this.#gpu.updatePlacement(geometry);
-      }),
-      ...(old ? { rewrite: () => this.#gpu.writeShapes(meshSlices(index, before, old, region)) } : {}),
-    };
+    // A chunk of its own, for most scenes keep their meshes.
+    const { replaceMesh } = await import('./replace-mesh');
+    const tools = [
+      attributeWords,
+      createScene,
+      layOutGeometry,
+      loadGpuTrees,
+      meshSlices,
+      notFound,
+      validateScene,
+    ] as const;
+    return replaceMesh(this, tools, nameOrIndex, mesh);
   }
 
-  #blas(scene: Scene): (Hierarchy | undefined)[] {
-    return scene.meshes.map((mesh) => this.#trees.get(mesh));
+  /** @internal Hierarchies that are known. */
+  blas(scene: Scene): (Hierarchy | undefined)[] {
+    return scene.meshes.map((mesh) => this.trees.get(mesh));
   }
 
   /**
    * Brings the hierarchies of a scene, with their nodes on the CPU: also those of the scene as it is, which an edit may
    * have to write again.
+   * @internal
    */
-  async #build(scene: Scene): Promise<void> {
-    this.#remember(scene, await prepareHierarchies(scene, this.#builders, this.#blas(scene)));
+  async build(scene: Scene): Promise<void> {
+    this.#remember(scene, await prepareHierarchies(scene, this.builders, this.blas(scene)));
     const load = async (mesh: Mesh) => {
-      const tree = this.#trees.get(mesh);
-      if (tree?.gpu) this.#trees.set(mesh, await tree.gpu.read());
+      const tree = this.trees.get(mesh);
+      if (tree?.gpu) this.trees.set(mesh, await tree.gpu.read());
     };
     await Promise.all([...new Set([...this.scene.meshes, ...scene.meshes])].map(load));
   }
@@ -247,12 +233,12 @@ export class SceneEditor {
   #remember(scene: Scene, blas: readonly (Hierarchy | undefined)[]): void {
     scene.meshes.forEach((mesh, i) => {
       const tree = blas[i];
-      if (tree) this.#trees.set(mesh, tree);
+      if (tree) this.trees.set(mesh, tree);
     });
   }
 
-  /** The change to other instances, meshes and where they lie. */
-  #commit({ instances, meshes }: Scene, geometry: Geometry, upload: () => boolean): SceneChange {
+  /** @internal The change to other instances, meshes and where they lie. */
+  commit({ instances, meshes }: Scene, geometry: Geometry, upload: () => boolean): SceneChange {
     const version = this.#version;
     const before = { instances: this.scene.instances, meshes: this.scene.meshes, geometry: this.#geometry };
     const set = (state: typeof before) => {
@@ -331,7 +317,7 @@ export class SceneEditor {
         for (const index of which) next[index] = changed(next[index] as Instance, index);
         return { ...this.scene, instances: next };
       };
-      return this.#reshape(reshaped);
+      return this.reshape(reshaped);
     }
     const set = (state: 'before' | 'after') => {
       this.#version++;
@@ -342,7 +328,7 @@ export class SceneEditor {
       isStale: () => version !== this.#version,
       apply: () => {
         set('after');
-        return this.#gpu.updateInstances(geometry, changes);
+        return this.gpu.updateInstances(geometry, changes);
       },
       undo: () => set('before'),
       ...(effect && {
@@ -356,18 +342,18 @@ export class SceneEditor {
     };
   }
 
-  /** Everything is laid out again, and once more if another change came in between. */
-  async #reshape(changed: () => Scene): Promise<SceneChange> {
+  /** @internal Everything is laid out again, and once more if another change came in between. */
+  async reshape(changed: () => Scene): Promise<SceneChange> {
     for (;;) {
       const version = this.#version;
       const next = changed();
-      await this.#build(next);
-      const geometry = layOutGeometry(next, this.#blas(next));
+      await this.build(next);
+      const geometry = layOutGeometry(next, this.blas(next));
       const packed = await packGeometry(next, geometry);
-      const pages = await this.#gpu.pagesOf(next, geometry);
+      const pages = await this.gpu.pagesOf(next, geometry);
       if (version !== this.#version) continue;
-      return this.#commit(next, geometry, () => {
-        this.#gpu.updateShapes(geometry, packed, pages);
+      return this.commit(next, geometry, () => {
+        this.gpu.updateShapes(geometry, packed, pages);
         return true;
       });
     }

@@ -1,9 +1,11 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
+import { poseMesh } from '@glanz/scene/pose';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { prepareGeometry, shapeBytes } from '../../src/geometry/geometry';
 import { readAov } from '../aovs';
+import { poseOf, rigOf } from '../rigs';
 import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
@@ -254,6 +256,27 @@ describe('arrays larger than a binding', () => {
     const edited = { ...scene, meshes: scene.meshes.map((mesh, i) => (i === 4 ? other.meshes[0]! : mesh)) };
     expect(await film(tracer)).toEqual(await fresh(device, edited, { bvhBuilder: 'cpu' }));
     tracer.destroy();
+  });
+
+  it('take poses that are computed on the GPU', async () => {
+    const rig = rigOf(16);
+    const scene = createScene();
+    addSphere(scene, 0.2, [-0.5, -0.5, 0.2], lambert(0.7), 48);
+    scene.meshes.push(rig.bind);
+    scene.instances.push({ ...(scene.instances[0] as Instance), name: 'body', mesh: 1 });
+    scene.environment = { type: 'constant', radiance: [0.5, 0.6, 0.7] };
+    const { device: small, shapes } = limited();
+    const images = await Promise.all(
+      [small, device].map(async (on) => {
+        const tracer = await PathTracer.create(on, scene, { ...options, bvhBuilder: 'gpu' });
+        for (const angle of [0, 0.4, 0.9]) await tracer.replaceMesh('body', poseMesh(rig, poseOf(angle, [0.3])));
+        const pixels = await film(tracer);
+        if (on === small) expect(shapes()).toEqual(TEXTURES);
+        tracer.destroy();
+        return pixels;
+      }),
+    );
+    expect(images[0]).toEqual(images[1]);
   });
 
   it('lie in textures alone: the others stay in buffers', async () => {

@@ -1,0 +1,71 @@
+import type { createScene, Mesh, Scene, validateScene } from '@glanz/scene';
+import type { notFound } from '../errors';
+import type { attributeWords, Geometry, layOutGeometry, meshSlices } from '../geometry/geometry';
+import type { loadGpuTrees } from '../geometry/hierarchies';
+import type { Hierarchy, MeshRegion } from '../geometry/hierarchy';
+import type { PoseHost } from '../geometry/pose/pose-host';
+import type { GpuScene } from './gpu-scene';
+import type { SceneChange } from './scene-change';
+
+/** What this chunk uses of the code that is there already; imported, it would move to chunks that both share. */
+type Tools = readonly [
+  typeof attributeWords,
+  typeof createScene,
+  typeof layOutGeometry,
+  typeof loadGpuTrees,
+  typeof meshSlices,
+  typeof notFound,
+  typeof validateScene,
+];
+
+/** What it uses of the editor. */
+interface MeshHost extends PoseHost<Geometry> {
+  readonly gpu: GpuScene;
+  blas(scene: Scene): (Hierarchy | undefined)[];
+  build(scene: Scene): Promise<void>;
+  reshape(changed: () => Scene): Promise<SceneChange>;
+}
+
+/** See `PathTracer.replaceMesh`. */
+export async function replaceMesh(
+  editor: MeshHost,
+  tools: Tools,
+  nameOrIndex: string | number,
+  mesh: Mesh,
+): Promise<SceneChange> {
+  const [attributeWords, createScene, layOutGeometry, loadGpuTrees, meshSlices, notFound, validateScene] = tools;
+  const { scene, gpu, trees } = editor;
+  const index =
+    typeof nameOrIndex === 'number' ? nameOrIndex : scene.meshes.findIndex(({ name }) => name === nameOrIndex);
+  if (!scene.meshes[index]) throw notFound('renderer/mesh', nameOrIndex, scene.meshes);
+  if (mesh.pose && editor.builders.gpu) {
+    const { poseOnGpu } = await loadGpuTrees();
+    const posed = await poseOnGpu(editor, index, mesh);
+    if (posed) return posed;
+  }
+  validateScene({ ...createScene(), meshes: [mesh] });
+  const changed = () => ({ ...scene, meshes: scene.meshes.map((old, i) => (i === index ? mesh : old)) });
+  await editor.build(changed());
+  const before = scene.meshes[index] as Mesh;
+  const region = editor.geometry.regions[index] as MeshRegion;
+  const tree = trees.get(mesh);
+  const next = changed();
+  const blas = editor.blas(next);
+  const { placement, triangleCount, hasVertexColors } = layOutGeometry(next, blas);
+  const fits =
+    placement.nodeCapacity <= editor.geometry.tlasNodes &&
+    tree &&
+    tree.nodeCount <= region.nodes &&
+    tree.triangleIndices.length <= region.triangles &&
+    attributeWords(mesh) <= region.words;
+  if (!fits) return editor.reshape(changed);
+  const geometry: Geometry = { ...editor.geometry, placement, blas, hasVertexColors, triangleCount };
+  const old = trees.get(before);
+  return {
+    ...editor.commit(next, geometry, () => {
+      gpu.writeShapes(meshSlices(index, mesh, tree, region));
+      return gpu.updatePlacement(geometry);
+    }),
+    ...(old ? { rewrite: () => gpu.writeShapes(meshSlices(index, before, old, region)) } : {}),
+  };
+}

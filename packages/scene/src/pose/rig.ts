@@ -1,0 +1,68 @@
+import { SceneError } from '../error';
+import type { Mesh, MeshRig, MeshSkin, MorphTarget } from '../mesh';
+import { createScene } from '../scene';
+import { validateScene } from '../validate';
+
+/** How a mesh can be posed; see {@link createRig}. */
+export interface RigOptions {
+  readonly skin?: MeshSkin | undefined;
+  readonly targets?: readonly MorphTarget[] | undefined;
+}
+
+function expect(fits: boolean, code: 'length' | 'not-finite' | 'reference' | 'value', message: string): void {
+  if (!fits) throw new SceneError(`scene/${code}`, message);
+}
+
+function expectFinite(values: Float32Array, what: string): void {
+  for (let i = 0; i < values.length; i++)
+    expect(Number.isFinite(values[i]), 'not-finite', `${what}: number ${i} is ${values[i]}.`);
+}
+
+/**
+ * A mesh that can be posed by a skin, morph targets, or both. What it is given is checked once, here, and kept: it must
+ * not be changed afterwards.
+ *
+ * @param bind The mesh in its bind pose.
+ * @throws {SceneError} `scene/length`, `scene/not-finite`, `scene/reference`, `scene/value`.
+ * @example
+ * const rig = createRig(mesh, { skin: { jointCount: 2, joints, weights } });
+ * await tracer.replaceMesh('arm', poseMesh(rig, { joints: [...upper, ...lower] }));
+ */
+export function createRig(bind: Mesh, { skin, targets = [] }: RigOptions): MeshRig {
+  validateScene({ ...createScene(), meshes: [bind] });
+  const { name } = bind;
+  const length = bind.positions.length;
+  if (skin) {
+    const { jointCount, joints, weights } = skin;
+    expect(
+      Number.isInteger(jointCount) && jointCount >= 1 && jointCount <= 65536,
+      'value',
+      `${name}: jointCount is ${jointCount}; it must be a whole number from 1 to 65536.`,
+    );
+    const set = (4 * length) / 3;
+    expect(
+      joints.length > 0 && joints.length % set === 0 && weights.length === joints.length,
+      'length',
+      `${name}: there are ${joints.length} joints and ${weights.length} weights; both must be ${set}, or a multiple of it.`,
+    );
+    expectFinite(weights, `${name}: weights of the skin`);
+    for (let i = 0; i < joints.length; i++) {
+      expect((weights[i] as number) >= 0, 'value', `${name}: weight ${i} of the skin is ${weights[i]}, below 0.`);
+      expect(
+        (joints[i] as number) < jointCount,
+        'reference',
+        `${name}: number ${i} of the skin's joints is ${joints[i]}; there are ${jointCount} joints.`,
+      );
+    }
+  }
+  targets.forEach((target, i) => {
+    for (const key of ['positions', 'normals', 'tangents'] as const) {
+      const values = target[key];
+      if (!values) continue;
+      const what = `${name}: ${key} of morph target ${i}`;
+      expect(values.length === length, 'length', `${what} have ${values.length} numbers; they must have ${length}.`);
+      expectFinite(values, what);
+    }
+  });
+  return { bind, skin, targets };
+}
