@@ -70,7 +70,9 @@ const project = (
     include,
     exclude: ['**/node_modules/**', ...exclude],
     isolate: isolated,
-    setupFiles: [fileURLToPath(new URL('tools/pipeline/test-times.ts', import.meta.url))],
+    setupFiles: ['test-times', 'typed-arrays'].map((name) =>
+      fileURLToPath(new URL(`tools/pipeline/${name}.ts`, import.meta.url)),
+    ),
     pool: 'forks' as const,
     testTimeout: 300_000,
     hookTimeout: 120_000,

@@ -8,18 +8,9 @@ import { best, bestSplit } from '../../src/builders/best';
 import { fast } from '../../src/builders/fast';
 import { BvhError } from '../../src/error';
 import { BvhWorkers, type BvhWorkersOptions } from '../../src/worker/workers';
+import { expectSame } from '../same';
 import { randomNumbers, sphere, strewn } from '../shapes';
 import { bundledWorker } from './bundled';
-
-const bytes = (array: Float32Array | Uint32Array) => Buffer.from(array.buffer, array.byteOffset, array.byteLength);
-
-function expectSame(actual: Blas, expected: Blas): void {
-  expect(actual.nodeCount).toBe(expected.nodeCount);
-  expect(actual.nodes.length).toBe(expected.nodes.length);
-  expect(bytes(actual.nodes).equals(bytes(expected.nodes))).toBe(true);
-  expect(bytes(actual.triangleIndices).equals(bytes(expected.triangleIndices))).toBe(true);
-  expect(actual.bounds).toEqual(expected.bounds);
-}
 
 const random = randomNumbers(11);
 const meshes: TriangleMesh[] = [
