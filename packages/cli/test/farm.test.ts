@@ -269,29 +269,36 @@ describe('without a queue', () => {
     expect(lit).toBeGreaterThan(100);
   });
 
-  it('machines that share a bucket alone: parts of one, the merge of another, and the bits of a folder', async () => {
-    const folder = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true }) });
-    const row = { model: 'shoe.glb', size: '8x8', samples: 32, 'max-depth': 2, bits: 16, output: 'x.png' };
-    writeFileSync(join(folder, 'batch.json'), JSON.stringify([row]));
-    const server = await startS3(join(folder, 's3'), 'farm');
-    onTestFinished(() => server.stop());
-    const task = (...argv: string[]) =>
-      start(['farm', 'task', 'batch.json', '--gpu', 'software', '--split', '16', '--json', ...argv], folder, server.env)
-        .ended;
-    const bucket = ['--store', 's3://farm/shoes', '--s3-endpoint', server.endpoint, '--store-cache'];
-    const part = await task(...bucket, 'a', '--part', '0');
-    expect([part.code, part.out], part.err).toEqual([0, '{"ok":true,"images":1,"rendered":1}\n']);
-    expect(existsSync(join(folder, 'x.png'))).toBe(false);
-    const rest = await task(...bucket, 'b');
-    expect([rest.code, rest.out], rest.err).toEqual([0, '{"ok":true,"images":1,"rendered":2}\n']);
-    const image = readFileSync(join(folder, 'x.png'));
-    // In a folder, on two devices at the same time.
-    const inFolder = await task('--store', 'c', '--gpu', 'software');
-    expect(inFolder.out, inFolder.err).toBe('{"ok":true,"images":1,"rendered":3}\n');
-    expect(Buffer.compare(image, readFileSync(join(folder, 'x.png')))).toBe(0);
-    const missing = await task('--store', 's3://none', ...bucket.slice(2), 'd');
-    expect([missing.code, missing.out]).toEqual([1, expect.stringContaining('farm/store-access')]);
-  });
+  // The store in a bucket has tests of its own (s3-store.test.ts of the farm).
+  it.runIf(FULL)(
+    'machines that share a bucket alone: parts of one, the merge of another, and the bits of a folder',
+    async () => {
+      const folder = temporaryFolder({ 'shoe.glb': makeGlb({ camera: true }) });
+      const row = { model: 'shoe.glb', size: '8x8', samples: 32, 'max-depth': 2, bits: 16, output: 'x.png' };
+      writeFileSync(join(folder, 'batch.json'), JSON.stringify([row]));
+      const server = await startS3(join(folder, 's3'), 'farm');
+      onTestFinished(() => server.stop());
+      const task = (...argv: string[]) =>
+        start(
+          ['farm', 'task', 'batch.json', '--gpu', 'software', '--split', '16', '--json', ...argv],
+          folder,
+          server.env,
+        ).ended;
+      const bucket = ['--store', 's3://farm/shoes', '--s3-endpoint', server.endpoint, '--store-cache'];
+      const part = await task(...bucket, 'a', '--part', '0');
+      expect([part.code, part.out], part.err).toEqual([0, '{"ok":true,"images":1,"rendered":1}\n']);
+      expect(existsSync(join(folder, 'x.png'))).toBe(false);
+      const rest = await task(...bucket, 'b');
+      expect([rest.code, rest.out], rest.err).toEqual([0, '{"ok":true,"images":1,"rendered":2}\n']);
+      const image = readFileSync(join(folder, 'x.png'));
+      // In a folder, on two devices at the same time.
+      const inFolder = await task('--store', 'c', '--gpu', 'software');
+      expect(inFolder.out, inFolder.err).toBe('{"ok":true,"images":1,"rendered":3}\n');
+      expect(Buffer.compare(image, readFileSync(join(folder, 'x.png')))).toBe(0);
+      const missing = await task('--store', 's3://none', ...bucket.slice(2), 'd');
+      expect([missing.code, missing.out]).toEqual([1, expect.stringContaining('farm/store-access')]);
+    },
+  );
 
   it('the manifest says what is missing', async () => {
     const folder = batchFolder(1);

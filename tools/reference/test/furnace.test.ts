@@ -30,9 +30,13 @@ describe('white furnace', () => {
     expect(positions.length / 3).toBe(edges.size / 2 - indices.length / 3 + 2);
   });
 
-  // The renderer's issue is energy: within 1 % of all light comes back, at every roughness.
+  // The renderer's issue is energy: within 1 % of all light comes back, at every roughness. Its ends, with GLANZ_FULL more
+  // between them.
   const cases = (['diffuse', 'metal', 'dielectric'] as FurnaceMaterial[]).flatMap((material) =>
-    [0.05, 0.25, 0.5, 1].map((roughness) => ({ material, roughness })),
+    (process.env['GLANZ_FULL'] === undefined ? [0.05, 1] : [0.05, 0.25, 0.5, 1]).map((roughness) => ({
+      material,
+      roughness,
+    })),
   );
   it.each(cases)('$material, roughness $roughness, returns all light within 1 %', async ({ material, roughness }) => {
     const { whole } = await measureFurnace(await testDevice(), material, roughness, { size: 32, samples: 64, runs: 1 });

@@ -5,10 +5,11 @@ import { failures } from '../src/compare';
 
 afterEach(expectNoGpuErrors);
 
-const cases: readonly GroundTruthCase[] =
-  process.env['GLANZ_FULL'] === undefined
-    ? GROUND_TRUTH_CASES
-    : GROUND_TRUTH_CASES.map((one) => ({ ...one, samples: FULL_SAMPLES * one.samples, noise: 1 }));
+const FULL = process.env['GLANZ_FULL'] !== undefined;
+/** A closed furnace is 1 everywhere, which the tests of the renderer compare without a reference (path-tracer.test.ts). */
+const cases: readonly GroundTruthCase[] = !FULL
+  ? GROUND_TRUTH_CASES.filter(({ scene }) => scene !== 'furnace_closed')
+  : GROUND_TRUTH_CASES.map((one) => ({ ...one, samples: FULL_SAMPLES * one.samples, noise: 1 }));
 
 describe('ground truth', () => {
   it.each(cases)(
@@ -23,7 +24,7 @@ describe('ground truth', () => {
     300_000,
   );
 
-  it.each(['cornell_spheres', 'env_sun'])(
+  it.each(FULL ? ['cornell_spheres', 'env_sun'] : ['env_sun'])(
     '%s agrees with its reference when directions are guided',
     async (scene) => {
       const { compareImages, GroundTruth, renderImage } = await import('../src/index');

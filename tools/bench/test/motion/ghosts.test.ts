@@ -191,7 +191,8 @@ it('shows what moves in a mirror', async () => {
   expect(filtered).toBeLessThan(0.01);
 });
 
-it('shows what moves behind clear glass', async () => {
+// As in a mirror: the chain is followed by the same code (aov-chains.test.ts of the renderer).
+it.runIf(process.env['GLANZ_FULL'])('shows what moves behind clear glass', async () => {
   const scene = createScene();
   add(scene, glass, [
     [
