@@ -53,10 +53,12 @@ describe.skipIf(!present)(`real models${note}`, () => {
       expect([mesh.positions, mesh.normals, mesh.tangents, mesh.colors, ...(mesh.uvs ?? [])].every(allFinite)).toBe(
         true,
       );
-    for (const { normals } of scene.meshes) {
-      for (let i = 0; normals && i < normals.length; i += 3)
-        expect(Math.abs(Math.hypot(normals[i]!, normals[i + 1]!, normals[i + 2]!) - 1)).toBeLessThan(1e-5);
-    }
+    // One expectation for all: one for each takes longer than the model.
+    let worst = 0;
+    for (const { normals = [] } of scene.meshes)
+      for (let i = 0; i < normals.length; i += 3)
+        worst = Math.max(worst, Math.abs(Math.hypot(normals[i]!, normals[i + 1]!, normals[i + 2]!) - 1));
+    expect(worst).toBeLessThan(1e-5);
   });
 
   // Of all models, which the tests above have loaded.

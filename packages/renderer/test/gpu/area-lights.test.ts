@@ -2,6 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Light, Material, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { casesOf } from '../full';
 import { addBox, addQuad, camera, createScene, lambert, meanOf } from '../scenes';
 
 type Vector = readonly [number, number, number];
@@ -159,7 +160,7 @@ describe('lights with a size', () => {
     ).toBeCloseTo(4, 4);
   });
 
-  it.each([0.05, 0.3, 0.8])(
+  it.each(casesOf(0.05, 0.3, 0.8))(
     'on a glossy floor of roughness %f: the image of an emissive mesh in their place',
     async (specular_roughness) => {
       const floor: Material = {

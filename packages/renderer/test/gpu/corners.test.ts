@@ -1,6 +1,7 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer } from '../../src/index';
+import { casesOf } from '../full';
 import { createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
@@ -51,7 +52,7 @@ async function brightest(corners: number, far: number, samples: number): Promise
 describe('no light comes through the corners of a closed room', () => {
   // Positions are rounded four times as much at 400 m, and so as many of a quarter of the paths would slip out.
   const [far, samples] = process.env['GLANZ_FULL'] === undefined ? [400, 16] : [100, 64];
-  it.each([3, 7])(`of %i walls, ${far} m from the origin`, async (corners) => {
+  it.each(casesOf(3, 7))(`of %i walls, ${far} m from the origin`, async (corners) => {
     expect(await brightest(corners, far, samples)).toBe(0);
   });
 });

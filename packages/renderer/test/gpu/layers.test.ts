@@ -1,7 +1,8 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { PathTracer } from '../../src/index';
+import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { readFloats } from '../../src/storage/read-buffer';
+import { casesOf } from '../full';
 import { addQuad, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
@@ -27,11 +28,13 @@ function noisy() {
 }
 
 describe('variance', () => {
-  it.each([
-    ['independent', 0.85, 1.2],
-    // Sobol points vary less from chunk to chunk than the chunks' spread tells.
-    ['sobol', 0.9, 4],
-  ] as const)('%s: the estimate against the spread of many images', async (sampler, low, high) => {
+  it.each(
+    casesOf<readonly [NonNullable<PathTracerOptions['sampler']>, number, number]>(
+      ['independent', 0.85, 1.2],
+      // Sobol points vary less from chunk to chunk than the chunks' spread tells.
+      ['sobol', 0.9, 4],
+    ),
+  )('%s: the estimate against the spread of many images', async (sampler, low, high) => {
     const runs = 24;
     const size = 12;
     const sum = new Float64Array(size * size * 3);

@@ -2,6 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Light, Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { casesOf } from '../full';
 import { addQuad, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
@@ -115,7 +116,7 @@ const isCovered = (x: number, [dx, dy, dz]: Vector): boolean => {
 };
 
 describe('shadowSoftness', () => {
-  it.each([0.25, 0.5, 1])('at %f the edge of a card has the penumbra of a disc', async (shadowSoftness) => {
+  it.each(casesOf(0.5, 0.25, 1))('at %f the edge of a card has the penumbra of a disc', async (shadowSoftness) => {
     const samples = 1024;
     const pixels = await image(scene(true), { shadowSoftness }, samples);
     const radius = HEIGHT_OF_EDGE * shadowSoftness * TAN_30;
