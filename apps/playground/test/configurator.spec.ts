@@ -12,6 +12,7 @@ import {
   servePlayground,
   watch,
   type RenderSettings,
+  themesAt,
 } from './page';
 
 let origin = '';
@@ -176,7 +177,7 @@ test('the page keeps its image when its size changes, saves it, and has no acces
       .toBeLessThan(0.05);
     await done(page);
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
-    for (const scheme of ['light', 'dark'] as const) {
+    for (const scheme of themesAt(width)) {
       await page.emulateMedia({ colorScheme: scheme });
       expect(await checkAccessibility(page), `${scheme} at ${width}`).toEqual([]);
     }
@@ -184,7 +185,7 @@ test('the page keeps its image when its size changes, saves it, and has no acces
   await page.setViewportSize({ width: 900, height: 560 });
   // A button that stands out keeps its contrast below the pointer.
   await page.getByRole('button', { name: 'Save image' }).hover();
-  for (const scheme of ['light', 'dark'] as const) {
+  for (const scheme of themesAt(900)) {
     await page.emulateMedia({ colorScheme: scheme });
     expect(await checkAccessibility(page), `the pointer on the button, ${scheme}`).toEqual([]);
   }
@@ -193,7 +194,7 @@ test('the page keeps its image when its size changes, saves it, and has no acces
   const { width, height } = await pixelsOf(page, readFileSync(await jpeg.path()));
   expect([width, height]).toEqual([48, 32]);
   await page.getByRole('button', { name: 'Save image' }).click();
-  for (const scheme of ['light', 'dark'] as const) {
+  for (const scheme of themesAt(1440)) {
     await page.emulateMedia({ colorScheme: scheme });
     expect(await checkAccessibility(page), `the dialog, ${scheme}`).toEqual([]);
     if (process.env['GLANZ_SCREENSHOTS'])
@@ -226,7 +227,7 @@ test('messages lie over the options and never over the product; the last option 
     [360, 740],
   ] as const) {
     await page.setViewportSize({ width, height });
-    for (const scheme of ['light', 'dark'] as const) {
+    for (const scheme of themesAt(width)) {
       await page.emulateMedia({ colorScheme: scheme });
       expect(await overlap(page, '.message', '#stage'), `over the product at ${width}`).toBe(0);
       expect(await overlap(page, '.message', 'footer'), `over the order at ${width}`).toBe(0);

@@ -1,6 +1,6 @@
 import { expect, test, type Page } from '@playwright/test';
 import { triangle } from '@glanz/browser/files';
-import { checkAccessibility, dataOf, drop, finished, imageOf, onePage, restarting, tab } from './page';
+import { checkAccessibility, dataOf, drop, finished, imageOf, onePage, restarting, tab, themesAt } from './page';
 
 let page: Page;
 
@@ -228,7 +228,7 @@ test('no accessibility faults, light and dark, at three sizes; nothing wider tha
   ] as const) {
     await page.setViewportSize({ width, height });
     if (width < 1180) await tab(page, 'Scene');
-    for (const colorScheme of ['light', 'dark'] as const) {
+    for (const colorScheme of themesAt(width)) {
       await page.emulateMedia({ colorScheme });
       await expect(row('Rig')).toBeVisible();
       expect(await checkAccessibility(page), `${colorScheme} at ${width}`).toEqual([]);

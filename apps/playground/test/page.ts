@@ -31,6 +31,12 @@ export async function drop(
   await page.dispatchEvent('#stage', 'drop', { dataTransfer: transfer });
 }
 
+/** Themes to look at in a window of a width: with GLANZ_FULL both, else one of them, another one for the next width. */
+export function themesAt(width: number): readonly ('light' | 'dark')[] {
+  if (process.env['GLANZ_FULL'] !== undefined) return ['light', 'dark'];
+  return [width > 500 && width < 1000 ? 'light' : 'dark'];
+}
+
 export const imageOf = (page: Page): Locator => page.locator('#image');
 
 /** An attribute `data-…` of the image's canvas, or nothing. */

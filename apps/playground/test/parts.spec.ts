@@ -1,5 +1,5 @@
 import { expect, test, type Page } from '@playwright/test';
-import { checkAccessibility, finished, imageOf, onePage, restarting, tab } from './page';
+import { checkAccessibility, finished, imageOf, onePage, restarting, tab, themesAt } from './page';
 
 /** One page for all; each test leaves nothing chosen that the next one minds, and no edits. */
 let page: Page;
@@ -46,7 +46,7 @@ test('with Ctrl one more, with Shift a range; the colour is that of all, as one 
   ] as const) {
     await page.setViewportSize({ width, height });
     if (width < 1180) await tab(page, 'Scene').catch(() => undefined);
-    for (const colorScheme of ['light', 'dark'] as const) {
+    for (const colorScheme of themesAt(width)) {
       await page.emulateMedia({ colorScheme });
       expect(await checkAccessibility(page), `${colorScheme} at ${width}`).toEqual([]);
       if (process.env['GLANZ_SCREENSHOTS'])
@@ -190,7 +190,7 @@ test('with Shift it turns and moves in steps; numbers, reset, several parts', as
   ] as const) {
     await page.setViewportSize({ width, height });
     if (width < 1180) await tab(page, 'Scene').catch(() => undefined);
-    for (const colorScheme of ['light', 'dark'] as const) {
+    for (const colorScheme of themesAt(width)) {
       await page.emulateMedia({ colorScheme });
       await expect(box('Position Y, m')).toBeVisible();
       expect(await checkAccessibility(page), `${colorScheme} at ${width}`).toEqual([]);

@@ -15,11 +15,13 @@ import {
   photograph,
   imageOf as canvasOf,
   pixelsOf,
+  plain,
   renderToFile,
   restarting,
   save,
   servePlayground,
   tab,
+  themesAt,
   watch,
 } from './page';
 
@@ -111,7 +113,7 @@ test('an image of any size is rendered, to a file or the clipboard; the screen k
     await expect(dialog).toBeVisible();
   };
   await show();
-  for (const scheme of ['light', 'dark'] as const) {
+  for (const scheme of themesAt(900)) {
     await page.emulateMedia({ colorScheme: scheme });
     expect(await checkAccessibility(page), scheme).toEqual([]);
     if (process.env['GLANZ_SCREENSHOTS'])
@@ -498,7 +500,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   );
   const link = await page.evaluate(() => navigator.clipboard.readText());
   await page.goto('about:blank');
-  await openAt(page, `${origin}/?model=cornell-box${new URL(link).hash}`);
+  await openAt(page, `${origin}/?model=cornell-box&scale=0.25&samples=2${new URL(link).hash}`);
   await expect(page.locator('[data-code="playground/link-file"]')).toContainText(
     'created with the environment "red room.hdr"',
   );
@@ -599,7 +601,7 @@ test('without a GPU the page says so before its scripts are there; when one come
       return ++asked === 1 ? null : requestAdapter.apply(this, given);
     };
   });
-  await page.goto(`${origin}/?model=cornell-box&scale=0.25&samples=1&max-depth=2`);
+  await page.goto(plain(`${origin}/?model=cornell-box&scale=0.25&samples=1&max-depth=2`));
   await expect(page.getByRole('heading', { name: 'The GPU cannot be used' })).toBeVisible();
   await expect(errorWith(page, 'renderer/no-adapter')).toBeVisible();
   await expect(page.locator('#preparing')).toBeHidden();

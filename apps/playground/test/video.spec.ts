@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { animatedQuads } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { checkAccessibility, dataOf, drop, errorWith, finished, onePage, tab } from './page';
+import { checkAccessibility, dataOf, drop, errorWith, finished, onePage, tab, themesAt } from './page';
 
 /** One page for all, with a model of two squares that change places in 0.2 s, on a colour. */
 let page: Page;
@@ -156,7 +156,7 @@ test('a turntable as WebM: all frames, with the colour behind the model; the ima
     [360, 740],
   ] as const) {
     await page.setViewportSize({ width, height });
-    for (const colorScheme of ['light', 'dark'] as const) {
+    for (const colorScheme of themesAt(width)) {
       await page.emulateMedia({ colorScheme });
       expect(await checkAccessibility(page), `${colorScheme} at ${width}`).toEqual([]);
       if (process.env['GLANZ_SCREENSHOTS'])

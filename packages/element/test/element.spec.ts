@@ -11,7 +11,7 @@ import {
   type Served,
 } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
-import { build } from 'esbuild';
+import { build, type BuildOptions } from 'esbuild';
 import type { GlanzViewerElement } from '@glanz/element';
 import { weslSource } from '../../../tools/pipeline/wesl.mjs';
 import { dracoModel, ktx2Model } from './packed';
@@ -64,7 +64,7 @@ const other = quads([{ name: 'one', colour: [0.9, 0.9, 0.02] }]);
 const FAST = {
   samples: '8',
   'max-depth': '3',
-  'pixel-ratio': '0.5',
+  'pixel-ratio': '0.25',
   'camera-orbit': '0deg 90deg 5m',
   'field-of-view': '35deg',
 };
@@ -324,7 +324,7 @@ test('a bad file is reported; the former image stays; the next good one clears t
 test('resized, hidden, shown, moved in the page, taken out and put back', async ({ page }) => {
   await open(page);
   await viewer(page).evaluate((element) => void (element.style.width = '200px'));
-  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.tracer!.width)).toBe(100);
+  await expect.poll(() => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer!.tracer!.width)).toBe(50);
   await done(page);
   await viewer(page).evaluate((element) => void (element.style.display = 'none'));
   await expect.poll(() => state(page)).toBe('hidden');
@@ -376,7 +376,7 @@ test("toBlob, by our names and by model-viewer's", async ({ page }) => {
     const { width, height } = await createImageBitmap(png);
     return [png.type, jpeg.type, width, height];
   });
-  expect(files).toEqual(['image/png', 'image/jpeg', 160, 100]);
+  expect(files).toEqual(['image/png', 'image/jpeg', 80, 50]);
 });
 
 test('without WebGPU the poster stays and the reason is reported', async ({ page }) => {
@@ -597,22 +597,39 @@ test('decoders can be replaced, and one that does not start is an error that say
   complaints = complaints.filter((text) => !/Content Security Policy/.test(text));
 });
 
-/** Serves the guide's module that denoises, with its weights beside it; those in the folder `damaged` are not weights. */
-async function serveDenoiser(page: Page): Promise<void> {
+async function bundled(options: BuildOptions): Promise<Buffer> {
   const {
     outputFiles: [module],
   } = await build({
-    entryPoints: [fileURLToPath(new URL('../../../apps/docs/examples/denoise-module.ts', import.meta.url))],
     bundle: true,
     format: 'esm',
     target: 'es2022',
     conditions: ['@glanz/source'],
     plugins: [weslSource()],
+    ...options,
     write: false,
   });
-  await page.route('**/denoise.js', (route) =>
-    route.fulfill({ contentType: 'text/javascript', body: Buffer.from(module!.contents) }),
-  );
+  return Buffer.from(module!.contents);
+}
+
+/** A module whose images are grey: what a network takes to compile says nothing of how it is loaded. */
+const GREY = `import { denoising } from '@glanz/viewer/denoise';
+export default denoising(async (device) => ({
+  denoiseTracer: async ({ width, height }) => {
+    const buffer = device.createBuffer({ size: 16 * width * height, usage: 0x80, mappedAtCreation: true });
+    new Float32Array(buffer.getMappedRange()).fill(0.18);
+    buffer.unmap();
+    return { buffer, width, height };
+  },
+  read: async ({ width, height }) => new Float32Array(4 * width * height).fill(0.18),
+  destroy: () => undefined,
+}));`;
+
+/** Serves the guide's module that denoises, with its weights beside it; those in the folder `damaged` are not weights. */
+async function serveDenoiser(page: Page): Promise<void> {
+  const example = fileURLToPath(new URL('../../../apps/docs/examples/denoise-module.ts', import.meta.url));
+  const module = await bundled({ entryPoints: [example] });
+  await page.route('**/denoise.js', (route) => route.fulfill({ contentType: 'text/javascript', body: module }));
   const weights = fileURLToPath(new URL('../../denoise-weights/weights/', import.meta.url));
   await page.route('**/*.tza', (route) => {
     const { pathname } = new URL(route.request().url());
@@ -667,6 +684,8 @@ test('images are denoised by the module that `denoise` names, and say so', async
 test('a denoiser that does not load is a warning, and the image is there with its noise', async ({ page }) => {
   await serveDenoiser(page);
   await page.route('**/none.js', (route) => route.fulfill({ status: 404 }));
+  const grey = await bundled({ stdin: { contents: GREY, resolveDir: fileURLToPath(new URL('.', import.meta.url)) } });
+  await page.route('**/grey.js', (route) => route.fulfill({ contentType: 'text/javascript', body: grey }));
   await page.route('**/other.js', (route) =>
     route.fulfill({ contentType: 'text/javascript', body: 'export default { denoise: true };' }),
   );
@@ -687,7 +706,7 @@ test('a denoiser that does not load is a warning, and the image is there with it
   await expect(viewer(page).getByRole('alert')).toBeHidden();
   // The module that is named last counts; that of the others is not reported any more.
   await page.evaluate(() => {
-    for (const address of ['none.js', 'denoise.js']) document.querySelector('glanz-viewer')!.denoise = address;
+    for (const address of ['none.js', 'grey.js']) document.querySelector('glanz-viewer')!.denoise = address;
   });
   await expect.poll(() => showsDenoised(page, 0.25)).toBe(true);
   expect(await warnings()).toHaveLength(3);

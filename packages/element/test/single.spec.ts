@@ -62,7 +62,7 @@ test.beforeAll(async () => {
       const html = (rest: string) =>
         `<!doctype html>\n<html lang="en"><link rel="icon" href="data:,"><title>Page</title>\n<script type="module" src="${network}/glanz-viewer.min.js"></script>\n${rest}\n`;
       const attributes =
-        'alt="A card" samples="6" max-depth="3" pixel-ratio="0.5" camera-orbit="0deg 90deg 3m" field-of-view="35deg"';
+        'alt="A card" samples="6" max-depth="3" pixel-ratio="0.25" camera-orbit="0deg 90deg 3m" field-of-view="35deg"';
       if (path === '/')
         return { body: html(`<glanz-viewer src="red.glb" ${attributes}></glanz-viewer>`), type: 'text/html' };
       if (path === '/other')

@@ -34,7 +34,7 @@ const FAST: GlanzViewerProps = {
   alt: 'A card',
   samples: 6,
   maxDepth: 3,
-  pixelRatio: 0.5,
+  pixelRatio: 0.25,
   cameraOrbit: '0deg 90deg 3m',
   fieldOfView: '35deg',
 };

@@ -104,7 +104,7 @@ async function image(page: Page, base64: string, way: 'ours' | 'three') {
       window.viewer = window.make({
         samples: 24,
         maxDepth: 3,
-        pixelRatio: 0.5,
+        pixelRatio: 0.25,
         camera: {
           type: 'perspective',
           name: 'c',

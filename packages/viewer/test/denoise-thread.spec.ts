@@ -23,12 +23,12 @@ interface TestWindow {
 declare const window: TestWindow & Pick<Window, 'make' | 'file'> & typeof globalThis;
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
-test.afterAll(() => served.close());
-test.use({ viewport: { width: 640, height: 480 } });
-
+// One page, and one denoiser for noise: what takes the software GPU longest is to compile again.
+let page: Page;
 let complaints: string[] = [];
-test.beforeEach(async ({ page }) => {
+test.beforeAll(async ({ browser }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  page = await browser.newPage({ viewport: { width: 640, height: 480 } });
   complaints = watch(page, served.origin);
   await page.goto(served.origin);
   await page.evaluate(() => {
@@ -57,8 +57,13 @@ test.beforeEach(async ({ page }) => {
       calls.mapped.push(range.byteLength);
       return range;
     };
-    window.denoiseNoise = async (size, abortAt = Infinity) => {
+    let shared: { readonly device: GPUDevice; readonly denoiser: FilmDenoiser } | undefined;
+    const create = async () => {
       const device = await (await navigator.gpu.requestAdapter())!.requestDevice();
+      return { device, denoiser: await window.filmDenoiser(device) };
+    };
+    window.denoiseNoise = async (size, abortAt = Infinity) => {
+      const { device, denoiser } = (shared ??= await create());
       const image = (fill: (i: number) => number) => {
         const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC;
         const buffer = device.createBuffer({ size: 16 * size * size, usage, mappedAtCreation: true });
@@ -74,7 +79,6 @@ test.beforeEach(async ({ page }) => {
         normal: image((i) => (i % 4 === 2 ? 1 : 0)),
         variance: image(() => 0.08),
       };
-      const denoiser = await window.filmDenoiser(device);
       // Shaders and memory for the size are made at the first image, which is not finished here.
       const first = new AbortController();
       await denoiser.denoise(images, { signal: first.signal, onProgress: () => first.abort() }).catch(() => undefined);
@@ -104,19 +108,20 @@ test.beforeEach(async ({ page }) => {
       // What would still be submitted comes by now.
       await device.queue.onSubmittedWorkDone();
       running = false;
-      device.destroy();
       return end;
     };
   });
 });
 test.afterEach(() => expect(complaints).toEqual([]));
+test.afterAll(async () => {
+  await page.close();
+  await served.close();
+});
 
 const submissions = (events: Calls['events']) => events.filter((event) => typeof event !== 'string');
 const callsOf = (page: Page) => page.evaluate(() => window.calls);
 
-test('while an image is denoised the page runs between submissions, and reads and writes no pixels', async ({
-  page,
-}) => {
+test('while an image is denoised the page runs between submissions, and reads and writes no pixels', async () => {
   expect(await page.evaluate(() => window.denoiseNoise(128))).toBe('done');
   const { events, mapped, written } = await callsOf(page);
   expect(submissions(events).length).toBeGreaterThan(12);
@@ -132,7 +137,7 @@ test('while an image is denoised the page runs between submissions, and reads an
   expect(written.reduce((sum, bytes) => sum + bytes, 0)).toBeLessThan(4096);
 });
 
-test('an abort is followed by no other layer', async ({ page }) => {
+test('an abort is followed by no other layer', async () => {
   expect(await page.evaluate(() => window.denoiseNoise(128, 0.3))).toBe('AbortError');
   const { events } = await callsOf(page);
   const at = events.indexOf('abort');
@@ -143,7 +148,7 @@ test('an abort is followed by no other layer', async ({ page }) => {
   expect(new Set(before.at(-1)).size).toBeLessThanOrEqual(2);
 });
 
-test('the variance of a film is not read by the page', async ({ page }) => {
+test('the variance of a film is not read by the page', async () => {
   const bytes = await page.evaluate(
     async ([base64, options]) => {
       const viewer = window.make({ ...(options as ViewerOptions), samples: 40, keepSamples: false, pixelRatio: 0.25 });

@@ -208,7 +208,7 @@ test('sizes of zero, one pixel and millions of pixels in sequence: the last one 
   }, sizes);
   await expect
     .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
-    .toEqual([160, 100]);
+    .toEqual([80, 50]);
   await done(page);
   const after = await shot(page);
   await page.evaluate(() => window.viewer.destroy());
@@ -220,7 +220,7 @@ test('sizes of zero, one pixel and millions of pixels in sequence: the last one 
 
 test('in a tab that is hidden repeatedly nothing is submitted, and the image comes out the same', async ({ page }) => {
   await injectFaults(page);
-  await open(page, served.origin, { samples: 40 });
+  await open(page, served.origin, { samples: 40, pixelRatio: 0.5 });
   const film = () => page.evaluate(async () => Array.from(await window.viewer.tracer!.read('beauty')).join());
   const before = await film();
   await page.evaluate(() => window.viewer.setOrbit({ theta: 0.01 }, { immediate: true }));
@@ -253,7 +253,7 @@ test('paused while the first samples of a view are on the GPU, it shows them, an
   page,
 }) => {
   // Small, so that the first batch holds a whole sample.
-  await open(page, served.origin, { pixelRatio: 0.25 });
+  await open(page, served.origin);
   const before = await shot(page);
   for (const samples of [0, 1]) {
     const states = await page.evaluate(async (after) => {

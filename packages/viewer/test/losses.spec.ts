@@ -117,7 +117,9 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
   expect(reference.film).toMatch(/^50 \d+ /);
   const bad: string[] = [];
   let tried = 0;
-  for (const point of POINTS) {
+  // Of them each second one, with GLANZ_FULL all.
+  for (const [index, point] of POINTS.entries()) {
+    if (!isFull && index % 2 !== 0) continue;
     const calls = reference.count[point] ?? 0;
     // The first, one in the middle, and one late; one of them alternately in the short run.
     const places = [1, Math.ceil(calls / 2), Math.ceil(0.8 * calls)];
@@ -137,5 +139,5 @@ test('wherever the GPU is lost on the way, the image comes out the same, bit for
     }
   }
   expect(bad).toEqual([]);
-  expect(tried).toBeGreaterThan(isFull ? 15 : 5);
+  expect(tried).toBeGreaterThan(isFull ? 15 : 3);
 });

@@ -33,7 +33,7 @@ const options = {
 interface Turn {
   /** Of each frame while the view moved: whether it was filtered. */
   readonly frames: boolean[];
-  /** Codes of the last frame that moved, RGBA, and of the same view after 128 samples. */
+  /** Codes of the last frame that moved, RGBA, and of the same view after 128 samples, if it turned. */
   readonly moving: number[];
   readonly final: number[];
   readonly width: number;
@@ -86,8 +86,8 @@ const turn = (page: Page, mode: PreviewMode, turns: boolean): Promise<Turn> =>
       await until(() => viewer.state === 'done');
       const film = [...(await viewer.tracer!.read('beauty'))];
       const { sampleCount } = viewer;
-      viewer.samples = 128;
-      await until(() => viewer.state === 'done' && viewer.sampleCount === 128);
+      if (steps) viewer.samples = 128;
+      await until(() => viewer.state === 'done' && viewer.sampleCount === viewer.samples);
       await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
       const result = {
         frames,

@@ -17,7 +17,7 @@ for (const seed of seeds)
   }) => {
     const complaints = watch(page, served.origin);
     await injectFaults(page);
-    await open(page, served.origin, { pixelRatio: 0.25, preview: seed % 2 ? 'filtered' : 'auto' });
+    await open(page, served.origin, { preview: seed % 2 ? 'filtered' : 'auto' });
     const film = () => page.evaluate(async () => Array.from(await window.viewer.tracer!.read('beauty')).join());
     const before = await film();
     const { steps, codes } = await page.evaluate(

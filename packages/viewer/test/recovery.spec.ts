@@ -262,7 +262,7 @@ test('without memory for a larger film the image stays as large as it can, with 
   await open(page, served.origin);
   // Films of up to a third of the new size's.
   await page.evaluate(() => {
-    window.gpuFaults.memory = window.gpuFaults.bytes() + 1_500_000;
+    window.gpuFaults.memory = window.gpuFaults.bytes() + 375_000;
     Object.assign(document.querySelector('canvas')!.style, { width: '640px', height: '400px' });
   });
   await expect.poll(async () => (await heard(page, 'error')).length).toBe(1);
@@ -274,7 +274,7 @@ test('without memory for a larger film the image stays as large as it can, with 
     window.viewer.tracer!.height,
     window.viewer.sampleCount,
   ]);
-  expect(size[0]).toBeLessThan(320);
+  expect(size[0]).toBeLessThan(160);
   expect(size[2]).toBe(12);
   expect(size[0]! / size[1]!).toBeCloseTo(1.6, 1);
   const { cells } = await shot(page);
@@ -286,7 +286,7 @@ test('without memory for a larger film the image stays as large as it can, with 
     window.gpuFaults.memory = undefined;
     document.querySelector('canvas')!.style.width = '600px';
   });
-  await expect.poll(() => page.evaluate(() => window.viewer.tracer!.width)).toBe(300);
+  await expect.poll(() => page.evaluate(() => window.viewer.tracer!.width)).toBe(150);
   await done(page);
   expect(await heard(page, 'error')).toHaveLength(1);
 });
@@ -295,7 +295,7 @@ test('a film that had to be smaller takes the whole size, and its shape, once th
   await injectFaults(page);
   await open(page, served.origin);
   await page.evaluate(() => {
-    window.gpuFaults.memory = window.gpuFaults.bytes() + 600_000;
+    window.gpuFaults.memory = window.gpuFaults.bytes() + 150_000;
     Object.assign(document.querySelector('canvas')!.style, { width: '440px', height: '440px' });
   });
   await expect
@@ -303,13 +303,13 @@ test('a film that had to be smaller takes the whole size, and its shape, once th
     .toEqual(['renderer/out-of-memory']);
   await done(page);
   const [width, height] = await page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]);
-  expect(width).toBeLessThan(220);
+  expect(width).toBeLessThan(110);
   expect(height).toBe(width);
   // There is no input to the page.
   await page.evaluate(() => void (window.gpuFaults.memory = undefined));
   await expect
     .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
-    .toEqual([220, 220]);
+    .toEqual([110, 110]);
   await done(page);
   expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(12);
   const { cells } = await shot(page);

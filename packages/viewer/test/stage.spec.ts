@@ -49,14 +49,14 @@ test('modelTransform places the model, at once and with the next load, and light
   expect(code).toBe('viewer/option');
 });
 
-// A board that stands, seen from above its front. A black one gives the ground no light that would brighten its shadow.
+// A board that stands, and the ground in front of its foot, seen from above. A black one gives the ground no light that would brighten its shadow.
 const board = (colour: readonly [number, number, number]) => quads([{ name: 'board', colour }]);
 const [c, s] = [Math.cos(0.5), Math.sin(0.5)];
 const above: ViewerOptions['camera'] = {
   type: 'perspective',
   name: 'above',
-  transform: [1, 0, 0, 0, 0, c, -s, 0, 0, s, c, 0, 0, 6 * s - 0.6, 6 * c, 1],
-  yfov: 0.6,
+  transform: [1, 0, 0, 0, 0, c, -s, 0, 0, s, c, 0, 0, 6 * s - 1, 6 * c + 0.3, 1],
+  yfov: 0.15,
   aspect: 1.6,
 };
 
@@ -81,7 +81,7 @@ const foot = (page: Page) =>
 test('a ground catches shadows as strong as asked for, at the foot of the model, and is not framed', async ({
   page,
 }) => {
-  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 64, pixelRatio: 0.4 };
+  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 64, pixelRatio: 0.1 };
   await open(page, served.origin, options, board([0, 0, 0]));
   expect((await foot(page)).alpha).toBe(0);
   const { instances } = await page.evaluate(() => ({ instances: window.viewer.scene!.instances.length }));
@@ -124,7 +124,7 @@ test('a ground catches shadows as strong as asked for, at the foot of the model,
 });
 
 test('a ground of a load reflects the model on request', async ({ page }) => {
-  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 16, pixelRatio: 0.4, ground: {} };
+  const options: ViewerOptions = { background: 'transparent', camera: above, samples: 16, pixelRatio: 0.1, ground: {} };
   await open(page, served.origin, { ...options, environment: 'none' }, board([0.9, 0.02, 0.02]));
   // Lit from the front, under a black sky: what the ground reflects besides is the board alone.
   await page.evaluate(async () => {

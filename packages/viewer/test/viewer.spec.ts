@@ -55,7 +55,7 @@ test('warms up until there is a model, where that is asked for or the adapter is
     await page.evaluate((options) => void (window.viewer = window.make(options)), {
       samples: 12,
       maxDepth: 3,
-      pixelRatio: 0.5,
+      pixelRatio: 0.25,
       camera: front,
       environment: sky,
       ...(warmUp ? { warmUp } : {}),
@@ -98,7 +98,7 @@ test('a drag turns the model: a small preview while it moves, then the image in 
     ) / 27;
   expect(moved).toBeGreaterThan(5);
   expect((await heard(page, 'frame')).filter((event) => event['preview'])).not.toEqual([]);
-  expect((await heard(page, 'frame')).at(-1)).toMatchObject({ preview: false, width: 160, height: 100 });
+  expect((await heard(page, 'frame')).at(-1)).toMatchObject({ preview: false, width: 80, height: 50 });
   // Back home, the same image as at first.
   await canvas(page).press('Home');
   await expect.poll(async () => Math.abs((await shot(page)).cells[3]![0] - before.cells[3]![0])).toBeLessThan(1.5);
@@ -307,7 +307,7 @@ test('resizing keeps the image sharp and the view whole', async ({ page }) => {
   );
   await expect
     .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
-    .toEqual([100, 150]);
+    .toEqual([50, 75]);
   await done(page);
   const { cells } = await shot(page);
   expect(cells[3]![0]).toBeGreaterThan(1.2 * cells[3]![1]);
@@ -316,7 +316,7 @@ test('resizing keeps the image sharp and the view whole', async ({ page }) => {
   await page.evaluate(() => void (document.querySelector('canvas')!.style.display = 'none'));
   await page.waitForTimeout(200);
   await page.evaluate(() => void (document.querySelector('canvas')!.style.display = 'block'));
-  await expect.poll(() => page.evaluate(() => window.viewer.tracer!.width)).toBe(100);
+  await expect.poll(() => page.evaluate(() => window.viewer.tracer!.width)).toBe(50);
 });
 
 test('the canvas has the size of the image when load() resolves, although nothing is drawn out of sight', async ({
