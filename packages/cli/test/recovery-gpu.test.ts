@@ -60,7 +60,8 @@ describe('the files are the same bit for bit', () => {
     const expected = bytes(whole);
     // How many submissions there are depends on the machine's speed; these come before the first sample, or are
     // certain.
-    const points = [1, 12, 'beauty', 'materialId'] as const;
+    const all = [1, 12, 'beauty', 'materialId'] as const;
+    const points = process.env['GLANZ_FULL'] === undefined ? all.slice(0, 3) : all;
     for (const point of points) {
       const cwd = folder();
       const { code, err, devices, result } = await glanz(['red.glb', ...OUTPUTS, ...QUALITY], cwd, {
