@@ -37,6 +37,8 @@ test.beforeAll(
 );
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
+// The last of the long files: by one worker alone it would leave a core idle.
+test.describe.configure({ mode: 'parallel' });
 
 let complaints: string[] = [];
 test.beforeEach(async ({ page }) => {
