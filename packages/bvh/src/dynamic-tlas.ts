@@ -1,3 +1,4 @@
+import { NodeWriter } from './builders/node-writer';
 import { buildOverBoxes } from './builders/over-boxes';
 import { BvhError } from './error';
 import {
@@ -71,6 +72,8 @@ export class DynamicTlas implements Tlas {
   #builtCost = 0;
   #changes = 0;
   readonly #changed: number[] = [];
+  /** Whether all nodes have changed. */
+  #isBuilt = false;
   readonly #isChanged: Uint8Array;
   /** The box of the current instance: min xyz, max xyz. */
   readonly #box = new Float32Array(6);
@@ -78,11 +81,11 @@ export class DynamicTlas implements Tlas {
   readonly #fitted = new Float32Array(6);
 
   /**
-   * @param instances What can be hit. `undefined`: not in the hierarchy for now, but may be added by
-   * {@link update}.
+   * @param instances What can be hit, such as an array; each is asked for once. `undefined`: not in the hierarchy for
+   * now, but may be added by {@link update}.
    * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
    */
-  constructor(instances: readonly (TlasInstance | undefined)[]) {
+  constructor(instances: Pick<readonly (TlasInstance | undefined)[], 'length' | 'at'>) {
     const { length } = instances;
     if (length > 2 ** TLAS_MAX_DEPTH)
       throw new BvhError('bvh/too-many', `${length} instances: one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
@@ -96,7 +99,8 @@ export class DynamicTlas implements Tlas {
     this.#isChanged = new Uint8Array(capacity);
     const boxes = new Float32Array(6 * length);
     const present = new Uint8Array(length);
-    for (const [i, instance] of instances.entries()) {
+    for (let i = 0; i < length; i++) {
+      const instance = instances.at(i);
       if (!instance) continue;
       checkTransform(instance, i);
       if (placeInstance(instance, boxes, 6 * i, this.toObject, 12 * i)) present[i] = 1;
@@ -157,9 +161,12 @@ export class DynamicTlas implements Tlas {
 
   /** The nodes written since the last call, in ascending order; at first, all of them. For uploads. */
   takeChangedNodes(): Uint32Array<ArrayBuffer> {
-    const changed = Uint32Array.from(this.#changed.filter((node) => node < this.#nodeCount)).sort();
+    const changed = this.#isBuilt
+      ? new Uint32Array(this.#nodeCount).map((_, i) => i)
+      : Uint32Array.from(this.#changed.filter((node) => node < this.#nodeCount)).sort();
     for (const node of this.#changed) this.#isChanged[node] = 0;
     this.#changed.length = 0;
+    this.#isBuilt = false;
     return changed;
   }
 
@@ -465,19 +472,19 @@ export class DynamicTlas implements Tlas {
     let count = 0;
     for (let i = 0; i < present.length; i++) {
       if (!present[i]) continue;
-      boxes.copyWithin(6 * count, 6 * i, 6 * i + 6);
+      if (count < i) boxes.copyWithin(6 * count, 6 * i, 6 * i + 6);
       kept[count++] = i;
     }
-    const { nodes, nodeCount } = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH);
-    this.#memory.set(nodes);
-    this.#nodeCount = nodeCount;
+    // Into the memory that is there: a copy of the nodes of a million instances would be 64 MB.
+    const writer = new NodeWriter(this.#heights.length, this.#memory.buffer);
+    const nodeCount = (this.#nodeCount = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH, writer).count);
     this.#count = count;
     this.#slots.fill(-1);
     this.#surfaces = 0;
     const words = this.#words;
     for (let node = nodeCount - 1; node >= 0; node--) {
       const base = node * NODE_WORDS;
-      for (const slot of [base + LEFT, base + RIGHT]) {
+      for (let slot = base + LEFT; slot <= base + RIGHT; slot += RIGHT - LEFT) {
         const reference = words[slot] as number;
         if (reference >= LEAF) {
           const instance = kept[leafFirst(reference)] as number;
@@ -490,8 +497,8 @@ export class DynamicTlas implements Tlas {
       // Built trees have children behind their parents.
       this.#heights[node] =
         1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
-      this.#mark(node);
     }
+    this.#isBuilt = true;
     this.#changes = 0;
     this.#builtCost = this.#cost();
     this.#finish();

@@ -41,6 +41,6 @@ export function buildTlas(instances: readonly TlasInstance[]): Tlas {
     checkTransform(instance, i);
     if (placeInstance(instance, boxes, 6 * count, toObject, 12 * i)) kept[count++] = i;
   }
-  const { nodes, nodeCount } = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH);
+  const { nodes, nodeCount } = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH).finish();
   return { nodes, nodeCount, instanceOrder: kept.slice(0, count), toObject, bounds: rootBounds(nodes) };
 }

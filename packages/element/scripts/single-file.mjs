@@ -48,6 +48,7 @@ const LATER = {
   './fit-textures': 'glanz-viewer.fit-textures.min.js',
   './fit-images': 'glanz-viewer.fit-images.min.js',
   './replace-mesh': 'glanz-viewer.replace-mesh.min.js',
+  './warm-up-scene': 'glanz-viewer.warm-up.min.js',
 };
 
 /** Where the modules of the sources among them are, from the viewer's folder. */
@@ -70,6 +71,7 @@ const SOURCES = {
   './fit-textures': '../renderer/src/scene/fit-textures',
   './fit-images': '../gltf/src/fit-images',
   './replace-mesh': '../renderer/src/scene/replace-mesh',
+  './warm-up-scene': '../renderer/src/warm-up-scene',
 };
 
 const pick = (...modules) => Object.fromEntries(modules.map((module) => [module, LATER[module]]));
@@ -157,7 +159,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|fit-images|replace-mesh|paged\/pages|paged-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

@@ -1,4 +1,4 @@
-import { extentSteps, type FoundVertices } from './extents';
+import { extentSteps, type ExtentCache } from './extents';
 import type { Scene } from './scene';
 import { finish, type Steps } from './slices';
 
@@ -30,12 +30,12 @@ export function sceneBounds(scene: Scene): SceneBounds {
  * last step.
  */
 export function* sceneBoundsSteps(scene: Scene): Generator<void, SceneBounds> {
-  return yield* boundsBy(scene, new Map());
+  return yield* boundsBy(scene, { vertices: new Map() });
 }
 
-/** {@link sceneBoundsSteps}, with a cache of the used vertices. */
-export function* boundsBy(scene: Scene, found: FoundVertices): Steps<SceneBounds> {
-  const [x1, y1, z1, x0, y0, z0] = (yield* extentSteps(scene, AXES, [0, 0, 0], found)) as unknown as [
+/** {@link sceneBoundsSteps}, with a cache. */
+export function* boundsBy(scene: Scene, cache: ExtentCache): Steps<SceneBounds> {
+  const [x1, y1, z1, x0, y0, z0] = (yield* extentSteps(scene, AXES, [0, 0, 0], cache)) as unknown as [
     number,
     number,
     number,

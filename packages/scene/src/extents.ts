@@ -1,17 +1,26 @@
-import type { Mesh } from './mesh';
 import type { Scene } from './scene';
+import type { Mesh } from './mesh';
 import { STEP, type Steps } from './slices';
 import { RUN, usedVertices, type UsedVertices } from './used-vertices';
 
 type Vector = readonly [number, number, number];
 
-/** Used vertices by mesh, each found once. */
-export type FoundVertices = Map<Mesh, UsedVertices>;
+/** What {@link extentSteps} finds out about a scene, kept for other directions. */
+export interface ExtentCache {
+  /** Used vertices by mesh, each found once. */
+  readonly vertices: Map<Mesh, UsedVertices>;
+  /**
+   * Bounds in the world of each {@link GROUP} consecutive instances, enlarged by their rounding errors: min xyz, max xyz.
+   */
+  boxes?: Float64Array;
+}
 
-/** Runs of vertices visited between two yields. */
+/** Instances that share a box. */
+const GROUP = 16;
+/** Runs of vertices, or groups of instances, visited between two yields. */
 const STEP_RUNS = STEP / RUN;
-/** Instances visited between two yields. */
-const STEP_INSTANCES = STEP / 16;
+/** Well above the relative rounding error of a few operations in doubles. */
+const SLACK = 2 ** -44;
 
 /**
  * How far the visible triangles' vertices extend in world space along each of several directions: the largest dot
@@ -20,59 +29,79 @@ const STEP_INSTANCES = STEP / 16;
  * border of the scene are measured vertex by vertex.
  */
 export function* extentSteps(
-  { instances, meshes }: Scene,
+  scene: Scene,
   directions: readonly Vector[],
   center: Vector,
-  found: FoundVertices,
+  cache: ExtentCache,
 ): Steps<Float64Array> {
+  const { instances, meshes } = scene;
+  const boxes = (cache.boxes ??= yield* boxSteps(scene, cache));
   const extents = new Float64Array(directions.length).fill(-Infinity);
   const row = new Float64Array(4);
-  const visible = function* () {
-    let seen = 0;
-    for (const { mesh: index, transform, visible } of instances) {
-      if (++seen % STEP_INSTANCES === 0) yield;
-      const mesh = meshes[index];
-      if (visible === false || !mesh) continue;
-      let vertices = found.get(mesh);
-      if (!vertices) found.set(mesh, (vertices = yield* usedVertices(mesh)));
-      if (vertices.first >= 0) yield { mesh, vertices, transform };
-    }
-  };
-  // Start with one vertex of each instance, so that the second pass can skip whatever lies inside of these.
-  for (const part of visible()) {
-    if (!part) yield;
-    else {
-      const { mesh, vertices, transform } = part;
-      directions.forEach((direction, i) => {
+  const groups = boxes.length / 6;
+  for (const [i, direction] of directions.entries()) {
+    const [x, y, z] = direction;
+    const slack = SLACK * Math.hypot(...center) * Math.hypot(x, y, z);
+    const bound = Float64Array.of(x, y, z, slack - x * center[0] - y * center[1] - z * center[2]);
+    let extent = -Infinity;
+    // Start where the bounds extend farthest, so that most of the rest is skipped.
+    let first = 0;
+    for (let group = 0; group < groups; group++)
+      if (farthest(bound, boxes, 6 * group) > farthest(bound, boxes, 6 * first)) first = group;
+    for (let next = -1; next < groups; next++) {
+      if (next % STEP_RUNS === 0) yield;
+      const group = next < 0 ? first : next;
+      if (farthest(bound, boxes, 6 * group) <= extent) continue;
+      for (const { mesh: index, transform, visible } of instances.slice(GROUP * group, GROUP * (group + 1))) {
+        const mesh = meshes[index];
+        const vertices = mesh && cache.vertices.get(mesh);
+        if (visible === false || !vertices) continue;
         setRow(row, direction, transform, center);
-        extents[i] = reach(extents[i] as number, row, mesh.positions, vertices, vertices.first, vertices.first + 1);
-      });
-    }
-  }
-  for (const part of visible()) {
-    if (!part) {
-      yield;
-      continue;
-    }
-    const { mesh, vertices, transform } = part;
-    const runs = vertices.boxes.length / 6 - 1;
-    for (let i = 0; i < directions.length; i++) {
-      setRow(row, directions[i] as Vector, transform, center);
-      if (farthest(row, vertices.boxes, 6 * runs) <= (extents[i] as number)) continue;
-      for (let from = 0; from < runs; from += STEP_RUNS) {
-        extents[i] = reachOfRuns(
-          extents[i] as number,
-          row,
-          mesh.positions,
-          vertices,
-          from,
-          Math.min(runs, from + STEP_RUNS),
-        );
-        if (from > 0) yield;
+        const runs = vertices.boxes.length / 6 - 1;
+        if (farthest(row, vertices.boxes, 6 * runs) <= extent) continue;
+        for (let from = 0; from < runs; from += STEP_RUNS) {
+          extent = reachOfRuns(extent, row, mesh.positions, vertices, from, Math.min(runs, from + STEP_RUNS));
+          if (from > 0) yield;
+        }
       }
     }
+    extents[i] = extent;
   }
   return extents;
+}
+
+/** Finds the boxes of groups of instances. */
+function* boxSteps({ instances, meshes }: Scene, cache: ExtentCache): Steps<Float64Array> {
+  const boxes = new Float64Array(6 * Math.ceil(instances.length / GROUP)).map((_, i) =>
+    i % 6 < 3 ? Infinity : -Infinity,
+  );
+  for (const [i, { mesh: index, transform: m, visible }] of instances.entries()) {
+    if (i % 4096 === 4095) yield;
+    const mesh = meshes[index];
+    if (visible === false || !mesh) continue;
+    let vertices = cache.vertices.get(mesh);
+    if (!vertices) cache.vertices.set(mesh, (vertices = yield* usedVertices(mesh)));
+    const own = vertices.boxes;
+    const from = own.length - 6,
+      to = 6 * Math.floor(i / GROUP);
+    if (own[from] === Infinity) continue;
+    for (let r = 0; r < 3; r++) {
+      let low = m[12 + r] as number,
+        high = low,
+        size = Math.abs(low);
+      for (let k = 0; k < 3; k++) {
+        const p = (m[4 * k + r] as number) * (own[from + k] as number),
+          q = (m[4 * k + r] as number) * (own[from + 3 + k] as number);
+        low += p < q ? p : q;
+        high += p < q ? q : p;
+        size += Math.abs(p) + Math.abs(q);
+      }
+      size *= SLACK;
+      boxes[to + r] = Math.min(boxes[to + r] as number, low - size);
+      boxes[to + 3 + r] = Math.max(boxes[to + 3 + r] as number, high + size);
+    }
+  }
+  return boxes;
 }
 
 /** The affine function of an object-space vertex that gives its extent: three factors and a constant. */
@@ -86,7 +115,7 @@ function setRow(row: Float64Array, [x, y, z]: Vector, m: ArrayLike<number>, cent
 /**
  * Upper bound on the extent of vertices within a box. Rounds as {@link reach} does, thus never below a vertex in it.
  */
-function farthest(row: Float64Array, boxes: Float32Array, at: number): number {
+function farthest(row: Float64Array, boxes: Float32Array | Float64Array, at: number): number {
   const a = row[0] as number,
     b = row[1] as number,
     c = row[2] as number;

@@ -1,7 +1,7 @@
 import { boundsBy } from './bounds';
 import type { PerspectiveCamera } from './camera';
 import { SceneError } from './error';
-import { extentSteps, type FoundVertices } from './extents';
+import { extentSteps, type ExtentCache } from './extents';
 import type { Scene } from './scene';
 import { finish } from './slices';
 
@@ -63,8 +63,8 @@ export function* frameCameraSteps(
     throw new SceneError('scene/value', `yfov is ${yfov}; it must lie between 0 and π.`);
   if (!(margin >= 0 && margin < 1))
     throw new SceneError('scene/value', `margin is ${margin}; it must be at least 0 and less than 1.`);
-  const found: FoundVertices = new Map();
-  const { min, max } = yield* boundsBy(scene, found);
+  const cache: ExtentCache = { vertices: new Map() };
+  const { min, max } = yield* boundsBy(scene, cache);
   if (!(min[0] <= max[0])) throw new SceneError('scene/empty', 'The scene has no visible triangles: nothing to frame.');
   const center: Vector = [(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2];
   const back = normalized(direction, 'direction');
@@ -87,7 +87,7 @@ export function* frameCameraSteps(
     back,
     tilted(back, -1, 0),
   ];
-  const reached = yield* extentSteps(scene, directions, center, found);
+  const reached = yield* extentSteps(scene, directions, center, cache);
   const [toRight, toLeft, toTop, toBottom, near, away] = reached as unknown as [
     number,
     number,

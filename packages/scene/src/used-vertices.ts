@@ -8,8 +8,6 @@ export const RUN = 64;
 export interface UsedVertices {
   /** 1 for each vertex in use. */
   readonly used: Uint8Array;
-  /** The first vertex in use; −1 if there are none. */
-  readonly first: number;
   /**
    * Bounds of the used vertices of each run of {@link RUN} vertices, six numbers each: min xyz, max xyz. The last box
    * bounds all.
@@ -34,7 +32,7 @@ export function* usedVertices({ positions, indices }: Mesh): Steps<UsedVertices>
     enclose(boxes, used, positions, from, Math.min(vertices, from + STEP));
     yield;
   }
-  return { used, first: used.indexOf(1), boxes };
+  return { used, boxes };
 }
 
 function mark(used: Uint8Array, indices: Uint32Array, from: number, to: number): void {

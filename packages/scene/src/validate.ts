@@ -137,24 +137,23 @@ function checkTransform(transform: ArrayLike<number>, what: string): void {
   finite(transform, `${what}: transform`);
 }
 
+/** Of the linear part. */
+function determinant(m: ArrayLike<number>): number {
+  const at = (k: number) => m[k] as number;
+  return (
+    at(0) * (at(5) * at(10) - at(6) * at(9)) -
+    at(4) * (at(1) * at(10) - at(2) * at(9)) +
+    at(8) * (at(1) * at(6) - at(2) * at(5))
+  );
+}
+
 /**
  * Determinant of the linear part over the product of its columns' lengths: 0 if the space is flattened, ±1 if at most
  * scaled.
  */
 function spread(m: ArrayLike<number>): number {
-  const [a, b, c, d, e, f, g, h, i] = [0, 1, 2, 4, 5, 6, 8, 9, 10].map((k) => m[k] as number) as [
-    number,
-    number,
-    number,
-    number,
-    number,
-    number,
-    number,
-    number,
-    number,
-  ];
-  const lengths = Math.hypot(a, b, c) * Math.hypot(d, e, f) * Math.hypot(g, h, i);
-  return lengths > 0 ? (a * (e * i - f * h) - d * (b * i - c * h) + g * (b * f - c * e)) / lengths : 0;
+  const lengths = [0, 4, 8].reduce((product, k) => product * Math.hypot(...Array.from(m).slice(k, k + 3)), 1);
+  return lengths > 0 ? determinant(m) / lengths : 0;
 }
 
 function checkProfile({ vertical, horizontal, intensities }: LightProfile, what: string): void {
@@ -364,7 +363,8 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
   scene.textures.forEach((texture, index) => reference(texture.image, scene.images, `Texture ${index}`, 'image'));
   scene.materials.forEach((material, index) => checkMaterial(scene, material, index));
   const seen = new Set<object>();
-  scene.instances.forEach((instance, index) => {
+  for (const [index, instance] of scene.instances.entries()) {
+    if (index % 4096 === 4095) yield;
     const what = `Instance ${index} ("${instance.name}")`;
     reference(instance.mesh, scene.meshes, what, 'mesh');
     reference(instance.material, scene.materials, what, 'material');
@@ -378,7 +378,7 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
     }
     checkTransform(instance.transform, what);
     // glTF files hide parts with a scale of 0, so this is only a warning; the BVH leaves such instances out.
-    if (spread(instance.transform) === 0)
+    if (determinant(instance.transform) === 0)
       warnings.push({
         code: 'scene/flattened',
         message: `${what} is flattened by its transform; it does not appear.`,
@@ -395,7 +395,7 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
           path: `/instances/${index}`,
         });
     }
-  });
+  }
   scene.lights.forEach(checkLight);
   scene.cameras.forEach(checkCamera);
   if (scene.environment) yield* environmentSteps(scene.environment);

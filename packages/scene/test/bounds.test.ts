@@ -116,3 +116,21 @@ test('the frame around many instances holds every vertex and touches the margin'
   }
   expect(widest / Math.tan(yfov / 2)).toBeCloseTo(1, 9);
 });
+
+test('framing many instances reads few transforms more than once, whatever the directions', () => {
+  const scene = strewn();
+  const framed = frameCamera(scene, { aspect: 1 });
+  let reads = 0;
+  scene.instances = scene.instances.map((instance) => ({
+    ...instance,
+    get transform() {
+      reads++;
+      return instance.transform;
+    },
+  }));
+  const visible = scene.instances.filter((instance) => instance.visible !== false).length;
+  expect(frameCamera(scene, { aspect: 1 })).toEqual(framed);
+  // Along twelve directions in all.
+  expect(reads).toBeGreaterThanOrEqual(visible + 12);
+  expect(reads).toBeLessThan(3 * visible);
+});

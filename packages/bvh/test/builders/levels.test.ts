@@ -74,7 +74,7 @@ for (const [what, power] of [
       const medians = medianSurface(boxes);
       const needed = Math.ceil(Math.log2(count));
       for (let maxDepth = needed; maxDepth < needed + 4; maxDepth++) {
-        const tree = buildOverBoxes(new Float32Array(boxes.flat()), count, maxDepth);
+        const tree = buildOverBoxes(new Float32Array(boxes.flat()), count, maxDepth).finish();
         checkStructure(tree, count, (i) => boxes[i]!, 1, maxDepth);
         expect(measure(tree).surface).toBeLessThan(medians);
       }
@@ -90,7 +90,7 @@ test('no tree is deeper than allowed: equal centres, sizes that double (seed 43)
       });
       for (let maxDepth = Math.ceil(Math.log2(count)); maxDepth < 12; maxDepth++)
         checkStructure(
-          buildOverBoxes(new Float32Array(boxes.flat()), count, maxDepth),
+          buildOverBoxes(new Float32Array(boxes.flat()), count, maxDepth).finish(),
           count,
           (i) => boxes[i]!,
           1,

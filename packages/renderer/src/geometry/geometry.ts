@@ -29,9 +29,9 @@ export interface Geometry {
 
 /** Meshes that visible instances use, in order. */
 function usedMeshes(scene: Scene): number[] {
-  return [...new Set(scene.instances.filter((instance) => isShown(scene, instance)).map(({ mesh }) => mesh))].sort(
-    (a, b) => a - b,
-  );
+  const used: boolean[] = [];
+  for (const instance of scene.instances) used[instance.mesh] ||= isShown(scene, instance);
+  return [...scene.meshes.keys()].filter((index) => used[index]);
 }
 
 /** The meshes in use that have no hierarchy yet. */
@@ -296,12 +296,12 @@ function writeRecord(
   });
 }
 
-/** Instance records up to so far apart are written at once, with those in between. */
+/** Instance records up to so far apart are written at once, with those in between; farther, where there are many. */
 const JOINED_RECORDS = 8;
 
 /** Ranges of instances, from the first up to the second number, that hold those of `indices` and few others. */
 export const instanceRanges = (indices: readonly number[]) =>
-  joinedRanges(Uint32Array.from(indices).sort(), JOINED_RECORDS);
+  joinedRanges(Uint32Array.from(indices).sort(), JOINED_RECORDS + (indices.length >> 10));
 
 /** Writes the records of the scene's instances from `from` up to `to`. */
 export function packInstances(

@@ -43,7 +43,7 @@ export class Placement {
   /** @throws {RenderError} `renderer/no-triangles` if nothing can be seen. */
   constructor(scene: Scene, blas: readonly (Hierarchy | undefined)[]) {
     const { length } = scene.instances;
-    this.tlas = new DynamicTlas(scene.instances.map((instance) => placing(scene, blas, instance)));
+    this.tlas = new DynamicTlas({ length, at: (i) => placing(scene, blas, scene.instances[i] as Instance) });
     this.instanceSlots = new Uint32Array(length).fill(NONE);
     this.#isCatcher = new Uint8Array(length);
     for (let i = 0; i < length; i++) this.#note(scene, i);

@@ -1,8 +1,10 @@
 import { requiredFeatures } from '@glanz/openpbr';
-import type { Material, Mesh, Scene } from '@glanz/scene';
+import type { Material, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../integrator/pipelines';
 import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
 import { isOneSided } from '../geometry/culling';
+import { missingMeshes } from '../geometry/geometry';
+import { isShown } from '../geometry/placement';
 import { interiorFlags } from '../materials/interiors';
 import { lightGroupTable } from '../lights/light-groups';
 import { hasSize } from '../lights/light-records';
@@ -143,13 +145,11 @@ export function texturePlan(
  * that work.
  */
 export function expectedFeatures(device: GPUDevice, scene: Scene, choices: SceneChoices): KernelFeatures {
-  const shown = scene.instances.filter(
-    ({ visible, mesh }) => visible !== false && (scene.meshes[mesh] as Mesh).indices.length >= 3,
-  );
-  const glows = scene.materials.map((material) => emittedRadiance(parametersOf(material)).some((value) => value > 0));
-  const lights = scene.lights.length > 0 || shown.some(({ material }) => glows[material]);
-  const { environment } = scene;
   const use = new MaterialUse(scene);
+  const glows = (material: Material, index: number) =>
+    use.isVisible(index) && emittedRadiance(parametersOf(material)).some((value) => value > 0);
+  const lights = scene.lights.length > 0 || scene.materials.some(glows);
+  const { environment } = scene;
   return sceneFeatures(scene, choices, {
     textured: texturedParameters(scene.materials),
     plan: texturePlan(device, scene, choices),
@@ -160,8 +160,8 @@ export function expectedFeatures(device: GPUDevice, scene: Scene, choices: Scene
     areaLights: scene.lights.some(hasSize),
     environmentMap: environment?.type === 'latlong',
     environmentSampled: environment?.type === 'latlong' && (environment.intensity ?? 1) > 0,
-    vertexColors: shown.some(({ mesh }) => (scene.meshes[mesh] as Mesh).colors !== undefined),
-    catchers: shown.some(({ catcher }) => catcher === true),
+    vertexColors: missingMeshes(scene, []).some((mesh) => scene.meshes[mesh]?.colors),
+    catchers: scene.instances.some((instance) => instance.catcher && isShown(scene, instance)),
     isOpaque: (material) => isOpaque(scene.materials[material] as Material, use.hasVertexAlpha(material)),
     isVisible: (material) => use.isVisible(material),
   });

@@ -1,6 +1,6 @@
 import type { Environment, Instance, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../integrator/pipelines';
-import { instanceStruct } from '../storage/layout';
+import { instanceStruct, NONE } from '../storage/layout';
 import type { ResourceName } from '../storage/resources';
 import {
   prepareEnvironment,
@@ -41,6 +41,8 @@ import { GpuMaterials } from './gpu-materials';
 const GATHER_MS = 4;
 /** Lights are written so many bytes at a time. */
 const FILL_BYTES = 1 << 20;
+/** Instance records are written so many at a time. */
+const FILL_RECORDS = 1 << 13;
 
 /** An instance before and after an edit. */
 export interface InstanceChange {
@@ -85,7 +87,7 @@ export class GpuScene {
     this.#materials = new GpuMaterials(scene, choices, this.#plan, this.#resources, () => this.groups);
     this.#makeShapes(geometry);
     this.#environment = roughEnvironment(scene.environment);
-    this.#writeInstances();
+    this.#resources.make('instances', scene.instances.length * instanceStruct.size);
     this.#energySampler = device.createSampler({ label: 'glanz energy', minFilter: 'linear', magFilter: 'linear' });
   }
 
@@ -315,21 +317,34 @@ export class GpuScene {
   }
 
   /** Writes the shapes, yielding to the event loop every few milliseconds. */
-  async fill(signal?: AbortSignal): Promise<void> {
+  fill(signal?: AbortSignal): Promise<void> {
+    return this.#write('the shapes of this scene', this.#shapeParts(), signal);
+  }
+
+  *#shapeParts(): Generator<number> {
+    this.#geometry.placement.takeChangedNodes();
+    this.#geometry.blas.forEach((tree, i) =>
+      tree?.gpu?.place((name) => this.shapes(name), this.#geometry.regions[i] as MeshRegion),
+    );
+    for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
+      this.#resources.write(buffer, data, offset);
+      yield data.byteLength;
+    }
+    yield* this.#instanceParts();
+  }
+
+  /**
+   * Writes part by part, yielding to the event loop every few milliseconds.
+   * @param parts Writes one part a step and yields its bytes.
+   */
+  async #write(what: string, parts: Generator<number, void>, signal?: AbortSignal): Promise<void> {
     const pace = uploadPace(this.#device);
     const written: Promise<void>[] = [];
-    this.#geometry.placement.takeChangedNodes();
-    const arrayOf = (name: ShapeArray) => this.shapes(name);
-    const { verified: placed } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
-      this.#geometry.blas.forEach((tree, i) => tree?.gpu?.place(arrayOf, this.#geometry.regions[i] as MeshRegion)),
-    );
-    written.push(placed);
-    for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
-      const { verified } = inErrorScopes(this.#device, 'the shapes of this scene', () =>
-        this.#resources.write(buffer, data, offset),
-      );
+    for (;;) {
+      const { result: part, verified } = inErrorScopes(this.#device, what, () => parts.next());
       written.push(verified);
-      await pace(data.byteLength);
+      if (part.done) break;
+      await pace(part.value);
       signal?.throwIfAborted();
     }
     await Promise.all(written);
@@ -341,37 +356,32 @@ export class GpuScene {
    * one go.
    */
   async light(environment: EnvironmentData, energy: EnergyTextures, gathered?: GatheredLights): Promise<void> {
-    const pace = uploadPace(this.#device);
     await withErrorScopes(this.#device, 'the environment', () => {
       this.#environment = environment;
       makeEnvironmentTextures(this.#resources, this.#environment);
       uploadEnergyTextures(this.#device.queue, this.#resources, energy);
     });
-    await pace(0);
-    const written: Promise<void>[] = [];
-    const slices = fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment);
-    for (;;) {
-      const { result: slice, verified } = inErrorScopes(this.#device, 'the environment', () => slices.next());
-      written.push(verified);
-      if (slice.done) break;
-      await pace(slice.value);
-    }
+    await this.#write(
+      'the environment',
+      fillEnvironmentTextures(this.#device.queue, this.#resources, this.#environment),
+    );
     await this.#lights.gather(this.#geometry, gathered, GATHER_MS);
     this.#features = undefined;
-    const { records, count } = this.#lights.table;
-    await withErrorScopes(this.#device, 'the lights of this scene', () => {
-      this.#resources.make('lights', records.byteLength);
-      if (count > 0) this.#writeInstances();
-    });
+    await this.#write('the lights of this scene', this.#lightParts());
+  }
+
+  *#lightParts(): Generator<number> {
+    const { records, firstLight } = this.#lights.table;
+    this.#resources.make('lights', records.byteLength);
+    // All others are as `fill()` wrote them.
+    const lit: number[] = [];
+    firstLight.forEach((first, index) => first !== NONE && lit.push(index));
+    this.#writeRecords(lit);
     for (let at = 0; at < records.byteLength; at += FILL_BYTES) {
       const bytes = Math.min(FILL_BYTES, records.byteLength - at);
-      const { verified } = inErrorScopes(this.#device, 'the lights of this scene', () =>
-        this.#resources.write('lights', new Uint8Array(records, at, bytes), at),
-      );
-      written.push(verified);
-      await pace(bytes);
+      this.#resources.write('lights', new Uint8Array(records, at, bytes), at);
+      yield bytes;
     }
-    await Promise.all(written);
   }
 
   /** Takes the tables of a guide, see guide.wesl: rows of `width` numbers. */
@@ -405,18 +415,23 @@ export class GpuScene {
 
   /** Writes the records of all instances. Each has its own, hidden or not, so that the buffer is never replaced. */
   #writeInstances(): void {
-    const records = packInstances(this.#scene, this.#geometry, this.#lights.table.firstLight);
-    if (!this.#resources.buffer('instances')) this.#resources.make('instances', records.byteLength);
-    this.#resources.write('instances', records);
+    for (const _ of this.#instanceParts());
+  }
+
+  *#instanceParts(): Generator<number> {
+    const { length } = this.#scene.instances;
+    for (let from = 0; from < length; from += FILL_RECORDS)
+      yield this.#writeRange(from, Math.min(from + FILL_RECORDS, length));
   }
 
   /** Writes the records of some instances. */
   #writeRecords(indices: readonly number[]): void {
-    for (const [first, end] of instanceRanges(indices))
-      this.#resources.write(
-        'instances',
-        packInstances(this.#scene, this.#geometry, this.#lights.table.firstLight, first, end),
-        first * instanceStruct.size,
-      );
+    for (const [first, end] of instanceRanges(indices)) this.#writeRange(first, end);
+  }
+
+  #writeRange(first: number, end: number): number {
+    const records = packInstances(this.#scene, this.#geometry, this.#lights.table.firstLight, first, end);
+    this.#resources.write('instances', records, first * instanceStruct.size);
+    return records.byteLength;
   }
 }
