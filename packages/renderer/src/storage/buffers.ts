@@ -68,7 +68,7 @@ export class GpuMemory {
     if (bytes > limit) {
       throw new DeviceError(
         'renderer/limit',
-        `The buffer "${label}" takes ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: make the image or scene smaller, or request a higher limit.`,
+        `The buffer "${label}" takes ${mebibytes(bytes)}, but this device's ${name} is ${mebibytes(limit)}: make the ${label.startsWith('film') ? 'image' : 'scene'} smaller, or request a higher limit.`,
       );
     }
     const buffer = this.#device.createBuffer({ label: `glanz ${label}`, size: bytes, usage });
