@@ -1,7 +1,10 @@
 import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, runCompute, testDevice } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
-import { interfaceAlbedo } from '../scripts/microfacet.mjs';
+import { gaussLegendre, interfaceAlbedo } from '../scripts/microfacet.mjs';
+import { interfaceEnergy } from '../src/cpu/dielectric';
+import { energyAlbedoMean } from '../src/cpu/energy';
+import { ggxAlpha } from '../src/cpu/ggx';
 import { insideEnergy } from '../src/cpu/inside';
 import { resolveParameters } from '../src/parameters/index';
 import { OPENPBR_TABLES } from '../src/tables/index';
@@ -123,5 +126,37 @@ describe('white furnace near the horizon', () => {
         );
       }
     }
+  });
+});
+
+describe('the mean of what goes through from inside', () => {
+  // 16 nodes on either side of the critical angle, where the albedo has an edge.
+  const { nodes, weights } = gaussLegendre(16);
+  const throughOf = (epsilon: number, roughness: number) => {
+    const eta = (1 + epsilon) / (1 - epsilon);
+    const critical = Math.sqrt(1 - eta * eta);
+    let sum = 0;
+    for (const [i, x] of nodes.entries())
+      for (const [mu, step] of [
+        [critical * (1 - x * x), critical],
+        [critical + (1 - critical) * x * x, 1 - critical],
+      ] as const) {
+        const wo = [Math.sqrt(1 - mu * mu), 0, mu] as const;
+        const { albedo } = interfaceEnergy(epsilon, roughness, ggxAlpha(roughness, 0), wo, mu, true, false);
+        sum += 4 * (1 - albedo) * mu * step * x * weights[i]!;
+      }
+    return sum;
+  };
+  it.each([
+    [1.001, 1.6, 0.005],
+    [1.6, 3, 0.013],
+  ])('is tabulated for indices from %f to %f within %f of its sum', (from, to, tolerance) => {
+    for (let i = 0; i <= 12; i++)
+      for (let j = 0; j <= 12; j++) {
+        const ior = from + ((to - from) * i) / 12;
+        const epsilon = (1 - ior) / (1 + ior);
+        const error = (1 - energyAlbedoMean(epsilon, j / 12)) / throughOf(epsilon, j / 12) - 1;
+        expect(Math.abs(error), `index ${ior}, roughness ${j / 12}`).toBeLessThan(tolerance);
+      }
   });
 });

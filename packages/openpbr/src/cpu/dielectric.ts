@@ -1,10 +1,9 @@
 import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyBounce, energyAlbedo, energyTotalLost } from './energy';
-import { ggxAlpha, isSmooth, viewRoughness, type Slopes } from './ggx';
+import { isSmooth, viewRoughness, type Slopes } from './ggx';
 import { insideEnergy } from './inside';
 import { stretchedEnergy } from './stretched';
 import { OPENPBR_INSIDE_NEAR } from '../tables/constants.wesl';
-import { OPENPBR_INNER_SUM_NODES } from '../tables/inner_nodes.wesl';
 
 /** What an interface does with the light towards a viewer; see the WGSL struct `OpenPbrDielectric`. */
 export interface InterfaceEnergy {
@@ -25,33 +24,6 @@ export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean =>
 /** Whether something opaque lies below the interface. */
 export const isOverOpaque = (p: OpenPbrParameters): boolean =>
   (1 - p.transmission_weight) * (p.geometry_thin_walled ? 1 : 1 - p.subsurface_weight) > 0;
-
-/** The cosine-weighted mean of the summed albedo over all directions, with a round highlight. */
-function sumAlbedoMean(epsilon: number, roughness: number): number {
-  const eta = (1 + epsilon) / (1 - epsilon);
-  const critical = Math.sqrt(Math.max(1 - eta * eta, 0));
-  const alpha = ggxAlpha(roughness, 0);
-  let through = 0;
-  for (const [x, weight] of OPENPBR_INNER_SUM_NODES) {
-    for (const [mu, step] of [
-      [critical * (1 - x * x), critical],
-      [critical + (1 - critical) * x * x, 1 - critical],
-    ] as const) {
-      const wo: OpenPbrVector = [Math.sqrt(Math.max(1 - mu * mu, 0)), 0, mu];
-      through += (1 - interfaceEnergy(epsilon, roughness, alpha, wo, mu, true, false).albedo) * mu * step * x * weight;
-    }
-  }
-  return 1 - 4 * through;
-}
-
-const remembered = { epsilon: 0, roughness: 0, mean: 0 };
-
-/** {@link sumAlbedoMean}; remembered for the last interface, for one is mostly looked at from many sides. */
-export function summedAlbedoMean(epsilon: number, roughness: number): number {
-  if (remembered.epsilon !== epsilon || remembered.roughness !== roughness)
-    Object.assign(remembered, { epsilon, roughness, mean: sumAlbedoMean(epsilon, roughness) });
-  return remembered.mean;
-}
 
 /**
  * Of an interface with (η - 1)/(η + 1) = `epsilon`; the twin of `openpbr_interface_energy`.

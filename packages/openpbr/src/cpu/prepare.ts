@@ -1,6 +1,6 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { coatedBase, coatPass, coatThrough, prepareCoat, type Coat } from './coat';
-import { interfaceEnergy, isOverOpaque, isSummed, summedAlbedoMean } from './dielectric';
+import { interfaceEnergy, isOverOpaque, isSummed } from './dielectric';
 import { diffuseEven, diffuseGain, diffuseGrazing } from './diffuse';
 import { energyAlbedoMean, conductorLoss, conductorLossMean, stretchedAlbedoMean } from './energy';
 import { dielectricEpsilon, fresnelMetal, fresnelMetalMean } from './fresnel';
@@ -213,12 +213,7 @@ export function prepareBsdf(
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
   const meanOf = (slopes: Slopes, r: number) =>
-    stretchedAlbedoMean(
-      face.epsilon,
-      slopes,
-      r,
-      face.summed && isOverOpaque(p) ? summedAlbedoMean(face.epsilon, r) : energyAlbedoMean(face.epsilon, r),
-    );
+    stretchedAlbedoMean(face.epsilon, slopes, r, energyAlbedoMean(face.epsilon, r));
   const first = meanOf(alpha, roughness);
   const reflected = isHazy ? mix(first, meanOf(haze.alpha, haze.roughness), haze.weight) : first;
   const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected, face.epsilon);
