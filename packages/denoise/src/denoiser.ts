@@ -5,7 +5,6 @@ import { lossOf } from './gpu';
 import type { DeviceMatrices } from './kernels/choose-matrices';
 import { checkSize } from './images';
 import { JobCursor, costOf } from './jobs';
-import type { PlanOptions } from './plan';
 import type {
   DenoiseImages,
   DenoiseOptions,
@@ -28,7 +27,9 @@ export class Denoiser {
   readonly #device: GPUDevice;
   readonly #stages: readonly Stage[];
   readonly #maxMemory: number;
-  readonly #shapeOf: PlanOptions['shapeOf'];
+  readonly #options: DenoiserOptions;
+  /** `undefined` where the device has none, or the driver does not compile their kernels. */
+  #matrices: DeviceMatrices | undefined;
   readonly #pace: Pace;
   /** Rejects when the device is lost. */
   readonly #lost: Promise<never>;
@@ -52,7 +53,8 @@ export class Denoiser {
     this.#maxMemory = options.maxMemory ?? 2 ** 30;
     this.#pace = new Pace(options.maxSubmitMs ?? 8);
     this.#stages = makeStages(device, networks, this.storage);
-    this.#shapeOf = shapesOf(device, options.shapeOf, matrices);
+    this.#options = options;
+    this.#matrices = matrices;
     this.#lost = lossOf(device);
   }
 
@@ -155,18 +157,29 @@ export class Denoiser {
     if (this.#chain?.width === width && this.#chain.height === height) return this.#chain;
     this.#chain?.destroy();
     this.#chain = undefined;
-    const chain = await Chain.create(this.#device, this.#stages, {
-      width,
-      height,
-      maxMemory: this.#maxMemory,
-      texelBytes: this.storage === 'f16' ? 8 : 16,
-      maxBinding: this.#device.limits.maxStorageBufferBindingSize,
-      shapeOf: this.#shapeOf,
-    });
+    const chain = await this.#createChain(width, height);
     if (this.#destroyed) chain.destroy();
     this.#expectAlive();
     this.#chain = chain;
     return chain;
+  }
+
+  async #createChain(width: number, height: number): Promise<Chain> {
+    try {
+      return await Chain.create(this.#device, this.#stages, {
+        width,
+        height,
+        maxMemory: this.#maxMemory,
+        texelBytes: this.storage === 'f16' ? 8 : 16,
+        maxBinding: this.#device.limits.maxStorageBufferBindingSize,
+        shapeOf: shapesOf(this.#device, this.#options.shapeOf, this.#matrices),
+      });
+    } catch (error) {
+      if (!this.#matrices || (error as DenoiseError).code !== 'denoise/pipeline') throw error;
+      // Matrices are experimental: where a driver does not compile their kernels, threads do the work.
+      this.#matrices = undefined;
+      return this.#createChain(width, height);
+    }
   }
 
   async #run(chain: Chain, images: DenoiseImages, { signal, onProgress }: DenoiseOptions): Promise<DenoiseResult> {

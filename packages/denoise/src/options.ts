@@ -39,9 +39,9 @@ export interface DenoiserOptions {
   readonly maxMemory?: number;
   /**
    * Whether layers are computed by subgroup matrices where the device has the features `shader-f16` and
-   * `chromium-experimental-subgroup-matrix`: products of halves, summed in single precision. An image changes by 0.06 %
-   * on average, and takes a third of the time (on an H200). No effect with storage `f32`, and on other devices. Default
-   * true.
+   * `chromium-experimental-subgroup-matrix`, subgroups of one size, and matrices of halves with sums in single
+   * precision. An image changes by 0.06 % on average, and takes a third of the time (on an H200). No effect with storage
+   * `f32`, and on other devices. Default true.
    */
   readonly subgroupMatrices?: boolean;
   /** Milliseconds that one submission should take at most, so that a page stays responsive. Default 8. */

@@ -79,7 +79,7 @@ function meanThrough(epsilon) {
 /**
  * What lies below a reflection gets the rest of the light over its mean, and what metal loses comes back over the mean
  * loss. Shares and means are tabulated a little high, by as much as interpolation can miss, so that no surface gives
- * back more than it gets.
+ * back more than it gets; but for the mean from inside, which misses by as little to either side as its sums do.
  */
 const MARGIN = { lost: (r) => 1.001 + 0.02 * (1 - r), share: 1.0015, outer: 1.0015 };
 

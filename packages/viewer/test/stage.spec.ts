@@ -49,7 +49,8 @@ test('modelTransform places the model, at once and with the next load, and light
   expect(code).toBe('viewer/option');
 });
 
-// A board that stands, and the ground in front of its foot, seen from above. A black one gives the ground no light that would brighten its shadow.
+// A board that stands, and the ground in front of its foot, seen from above. A black one gives the ground no light that
+// would brighten its shadow.
 const board = (colour: readonly [number, number, number]) => quads([{ name: 'board', colour }]);
 const [c, s] = [Math.cos(0.5), Math.sin(0.5)];
 const above: ViewerOptions['camera'] = {

@@ -14,8 +14,8 @@ describe('convergenceSlope', () => {
 
 describe('measureConvergence', () => {
   it('a renderer without bias converges as one over the number of samples', async () => {
-    // 128 × 128 pixels and two runs: the slope's own error is about 0.012 for four numbers of samples of the box, 0.013 for
-    // three of the textured plane, whose paths are short (0.018 between ten seeds).
+    // 128 × 128 pixels and two runs: the slope's own error is about 0.012 for four numbers of samples of the box, 0.013
+    // for three of the textured plane, whose paths are short (0.018 between ten seeds).
     const [scene, counts] =
       process.env['GLANZ_FULL'] === undefined
         ? (['textured', [2, 4, 8]] as const)

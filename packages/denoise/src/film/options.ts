@@ -27,6 +27,8 @@ export interface FilmDenoiserOptions {
   readonly maxMemory?: number;
   /** See `DenoiserOptions.maxSubmitMs`. */
   readonly maxSubmitMs?: number;
+  /** See `DenoiserOptions.subgroupMatrices`. */
+  readonly subgroupMatrices?: boolean;
   /** See `DenoiserOptions.shapeOf`: what `tuneShapes` of `@glanz/denoise/tune` found for this device. */
   readonly shapeOf?: NonNullable<DenoiserOptions['shapeOf']>;
   /** Ends the creation with the signal's reason. */

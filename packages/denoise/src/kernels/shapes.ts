@@ -61,7 +61,7 @@ export const hasMatrices = (shape: KernelShape): shape is MatrixShape => 'matrix
 export const matrixPatch = (shape: MatrixShape): number =>
   (tileWidth(shape) + 2) * (tileHeight(shape) + 2) * shape.pixelStride;
 
-/** Vectors of workgroup memory in which a subgroup's sums are passed on; one more a row than it has spreads them over banks. */
+/** Vectors of workgroup memory in which a subgroup's sums are passed on; one more a row spreads them over banks. */
 export const matrixSums = ({ matrix: { m, n } }: MatrixShape): number => m * (n / 4 + 1);
 
 /** Bytes of workgroup memory. */

@@ -54,7 +54,7 @@ export async function requestDevice(options: DeviceOptions = {}): Promise<GPUDev
   if (!gpu) {
     throw new DeviceError(
       'renderer/no-webgpu',
-      'WebGPU is missing: use a current browser over https, or createGpu() of @glanz/renderer/node.',
+      'WebGPU is missing: use a current browser over https, or pass the gpu of createGpu() of @glanz/renderer/node.',
     );
   }
   const adapter = await gpu.requestAdapter({ powerPreference: options.powerPreference ?? 'high-performance' });
