@@ -147,9 +147,15 @@ export function skinOf(sets: readonly Influences[], matrices: readonly (Matrix |
   return { jointCount: matrices.length, joints, weights };
 }
 
-/** Matrices of joints as poses have them; those without effect are 0. */
+const numbersOf = new WeakMap<readonly (Matrix | undefined)[], Float64Array<ArrayBuffer>>();
+
+/** Matrices of joints as poses have them; those without effect are 0. Many nodes may have the same skin: made once. */
 export function jointNumbers(matrices: readonly (Matrix | undefined)[]): Float64Array<ArrayBuffer> {
-  const numbers = new Float64Array(16 * matrices.length);
-  matrices.forEach((matrix, j) => matrix && numbers.set(matrix, 16 * j));
+  let numbers = numbersOf.get(matrices);
+  if (!numbers) {
+    numbers = new Float64Array(16 * matrices.length);
+    for (const [j, matrix] of matrices.entries()) if (matrix) numbers.set(matrix, 16 * j);
+    numbersOf.set(matrices, numbers);
+  }
   return numbers;
 }
