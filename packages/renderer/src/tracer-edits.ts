@@ -133,7 +133,8 @@ export abstract class TracerEdits {
    *
    * A mesh of `poseMesh` of `@glanz/scene/pose` that follows another pose of the same rig is posed on the GPU: no vertex
    * is computed or uploaded by the CPU, and the hierarchy is refitted, and built again where it got worse by half. Its
-   * vertices are those of the CPU but for rounding. Where hierarchies are built on the CPU (`bvhBuilder`, software
+   * vertices are those of the CPU but for rounding. A normal that morph targets or joints cancel out is that of the bind
+   * pose; the CPU computes it from the triangles. Where hierarchies are built on the CPU (`bvhBuilder`, software
    * adapters), or the GPU cannot bind the rig, the vertices are computed on the CPU.
    *
    * @throws {RenderError} `renderer/mesh` if there is no such mesh, {SceneError} if the new one is broken.

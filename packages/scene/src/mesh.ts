@@ -48,7 +48,9 @@ export interface MorphTarget {
 export interface MeshRig {
   /** The mesh in its bind pose, without morph targets. */
   readonly bind: Mesh;
+  /** The joints that move each vertex. Absent: only targets do. */
   readonly skin?: MeshSkin | undefined;
+  /** What can be blended in, in the order of a pose's weights. */
   readonly targets: readonly MorphTarget[];
 }
 

@@ -9,7 +9,7 @@ import { uploadPace } from '../storage/upload-pace';
 import type { GpuBuilds, Hierarchy, HierarchyOnGpu, MeshRegion } from './hierarchy';
 
 // In the same chunk: what poses rigs shares the most with it.
-export { poseOnGpu } from './pose/pose-mesh';
+export { discardPoser, poseOnGpu } from './pose/pose-mesh';
 
 /** Bytes of a node, of a packed triangle, and of a word of the attributes. */
 const NODE_BYTES = 64;

@@ -22,9 +22,11 @@ type Tools = readonly [
 interface MeshHost extends PoseHost<Geometry> {
   readonly gpu: GpuScene;
   blas(scene: Scene): (Hierarchy | undefined)[];
-  build(scene: Scene): Promise<void>;
+  build(scene: Scene, read: readonly Mesh[]): Promise<void>;
   reshape(changed: () => Scene): Promise<SceneChange>;
 }
+
+const NO_POSES: Partial<Awaited<ReturnType<typeof loadGpuTrees>>> = {};
 
 /** See `PathTracer.replaceMesh`. */
 export async function replaceMesh(
@@ -33,20 +35,44 @@ export async function replaceMesh(
   nameOrIndex: string | number,
   mesh: Mesh,
 ): Promise<SceneChange> {
-  const [attributeWords, createScene, layOutGeometry, loadGpuTrees, meshSlices, notFound, validateScene] = tools;
-  const { scene, gpu, trees } = editor;
+  const [, createScene, , loadGpuTrees, meshSlices, notFound, validateScene] = tools;
+  const { scene } = editor;
   const index =
     typeof nameOrIndex === 'number' ? nameOrIndex : scene.meshes.findIndex(({ name }) => name === nameOrIndex);
   if (!scene.meshes[index]) throw notFound('renderer/mesh', nameOrIndex, scene.meshes);
-  if (mesh.pose && editor.builders.gpu) {
-    const { poseOnGpu } = await loadGpuTrees();
-    const posed = await poseOnGpu(editor, index, mesh);
-    if (posed) return posed;
-  }
+  const isPosed = () => mesh.pose ?? scene.meshes[index]?.pose;
+  const { poseOnGpu, discardPoser } = editor.builders.gpu && isPosed() ? await loadGpuTrees() : NO_POSES;
+  const posed = await poseOnGpu?.(editor, index, mesh, (before, tree, region) =>
+    editor.gpu.writeShapes(meshSlices(index, before, tree, region)),
+  );
+  if (posed) return posed;
   validateScene({ ...createScene(), meshes: [mesh] });
-  const changed = () => ({ ...scene, meshes: scene.meshes.map((old, i) => (i === index ? mesh : old)) });
-  await editor.build(changed());
-  const before = scene.meshes[index] as Mesh;
+  const change = await replaced(editor, tools, index, mesh);
+  return {
+    ...change,
+    apply: () => {
+      const isRebound = change.apply();
+      discardPoser?.(editor, index);
+      return isRebound;
+    },
+  };
+}
+
+/** The change to a mesh whose vertices are computed by the CPU. */
+async function replaced(
+  editor: MeshHost,
+  [attributeWords, , layOutGeometry, , meshSlices]: Tools,
+  index: number,
+  mesh: Mesh,
+): Promise<SceneChange> {
+  const { scene, gpu, trees } = editor;
+  const changed = () => ({ ...scene, meshes: scene.meshes.with(index, mesh) });
+  let before: Mesh;
+  // The place of the mesh is overwritten. Another edit may come meanwhile.
+  do {
+    before = scene.meshes[index] as Mesh;
+    await editor.build(changed(), [before, mesh]);
+  } while (scene.meshes[index] !== before);
   const region = editor.geometry.regions[index] as MeshRegion;
   const tree = trees.get(mesh);
   const next = changed();

@@ -217,17 +217,18 @@ export class SceneEditor {
   }
 
   /**
-   * Brings the hierarchies of a scene, with their nodes on the CPU: also those of the scene as it is, which an edit may
-   * have to write again.
+   * Brings the hierarchies of a scene.
+   * @param read Meshes whose nodes the CPU needs: also those of the scene as it is, which an edit may have to write
+   * again.
    * @internal
    */
-  async build(scene: Scene): Promise<void> {
+  async build(scene: Scene, read: readonly Mesh[]): Promise<void> {
     this.#remember(scene, await prepareHierarchies(scene, this.builders, this.blas(scene)));
     const load = async (mesh: Mesh) => {
       const tree = this.trees.get(mesh);
       if (tree?.gpu) this.trees.set(mesh, await tree.gpu.read());
     };
-    await Promise.all([...new Set([...this.scene.meshes, ...scene.meshes])].map(load));
+    await Promise.all([...new Set(read)].map(load));
   }
 
   #remember(scene: Scene, blas: readonly (Hierarchy | undefined)[]): void {
@@ -347,7 +348,7 @@ export class SceneEditor {
     for (;;) {
       const version = this.#version;
       const next = changed();
-      await this.build(next);
+      await this.build(next, [...this.scene.meshes, ...next.meshes]);
       const geometry = layOutGeometry(next, this.blas(next));
       const packed = await packGeometry(next, geometry);
       const pages = await this.gpu.pagesOf(next, geometry);

@@ -1,7 +1,7 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Mesh, Scene } from '@glanz/scene';
-import { poseMesh, type Pose } from '@glanz/scene/pose';
-import { afterEach, beforeAll, expect, it } from 'vitest';
+import { createRig, poseMesh, type Pose } from '@glanz/scene/pose';
+import { afterEach, beforeAll, expect, it, vi } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { poseOf, rigOf } from '../rigs';
 import { addQuad, camera, createScene, lambert } from '../scenes';
@@ -47,12 +47,13 @@ async function fresh(mesh: Mesh): Promise<Float32Array> {
 
 /** The device, and how many poses it has been given. */
 function counted() {
-  const count = { poses: 0 };
+  const count = { poses: 0, builds: 0 };
   const proxy = new Proxy(device, {
     get(target, name) {
       if (name === 'createCommandEncoder')
         return (of: GPUCommandEncoderDescriptor) => {
           if (of.label === 'glanz pose') count.poses++;
+          if (of.label === 'bvh keep') count.builds++;
           return target.createCommandEncoder(of);
         };
       const value = Reflect.get(target, name) as unknown;
@@ -61,6 +62,18 @@ function counted() {
   });
   return { device: proxy, count };
 }
+
+/** A ball whose neighbouring vertices have joints of their own, so that its hierarchy is of no use in some poses. */
+function tornRig() {
+  const { bind } = rigOf(12, { tangents: false });
+  const vertices = bind.positions.length / 3;
+  const joints = new Uint16Array(4 * vertices).map((_, i) => (i >> 2) % 2);
+  const weights = new Float32Array(4 * vertices).map((_, i) => (i % 4 === 0 ? 1 : 0));
+  return createRig(bind, { skin: { jointCount: 2, joints, weights } });
+}
+
+const moved = (x: number) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1];
+const torn = (by: number): Pose => ({ joints: [...moved(0), ...moved(by)] });
 
 /** Puts a tracer into poses, one after the other, and gives the image of the last. */
 async function posed(bvhBuilder: 'cpu' | 'gpu', poses: readonly Pose[], on = device) {
@@ -120,5 +133,84 @@ it('a pose of another rig, or of none, replaces the mesh', async () => {
   expect(differing(await beauty(tracer), expected)).toBeLessThanOrEqual(6);
   await tracer.replaceMesh('body', rig.bind);
   expect(await beauty(tracer)).toEqual(await fresh(rig.bind));
+  tracer.destroy();
+});
+
+it('a posed mesh that was built on the GPU comes back after a pose on the GPU and another mesh', async () => {
+  const { device: watched, count } = counted();
+  const first = poseMesh(rig, POSES[1]!);
+  const tracer = await PathTracer.create(watched, sceneOf(first), { ...options, bvhBuilder: 'gpu' });
+  await tracer.replaceMesh('body', poseMesh(rig, POSES[2]!));
+  expect(count.poses).toBe(1);
+  await tracer.replaceMesh('body', rigOf(12).bind);
+  await tracer.replaceMesh('body', first);
+  expect(count.poses).toBe(1);
+  const expected = await fresh({ ...first });
+  expect(differing(await beauty(tracer), expected)).toBeLessThanOrEqual(6);
+  await tracer.replaceMesh('body', poseMesh(rig, POSES[2]!));
+  expect(count.poses).toBe(2);
+  expect(differing(await beauty(tracer), await fresh({ ...poseMesh(rig, POSES[2]!) }))).toBeLessThanOrEqual(6);
+  tracer.destroy();
+});
+
+it('and after a pose that its hierarchy is of no use for', async () => {
+  const { device: watched, count } = counted();
+  const ripped = tornRig();
+  const first = poseMesh(ripped, torn(0));
+  const tracer = await PathTracer.create(watched, sceneOf(first), { ...options, bvhBuilder: 'gpu' });
+  const builds: number[] = [];
+  for (const [pose, poses] of [
+    [torn(4), 1],
+    // Not on the GPU: it is built again, and then gives the hierarchy for those that follow.
+    [undefined, 1],
+    [torn(0.1), 2],
+  ] as const) {
+    const mesh = pose ? poseMesh(ripped, pose) : first;
+    await tracer.replaceMesh('body', mesh);
+    builds.push(count.builds);
+    expect(count.poses).toBe(poses);
+    expect(differing(await beauty(tracer), await fresh({ ...mesh }))).toBeLessThanOrEqual(6);
+  }
+  // The mesh and the wall, and the mesh again.
+  expect(builds).toEqual([2, 3, 3]);
+  tracer.destroy();
+});
+
+it('two poses of different rigs, not awaited, both end, and the image is of the second', async () => {
+  const { tracer } = await posed('gpu', POSES);
+  const other = rigOf(12);
+  await Promise.all([
+    tracer.replaceMesh('body', poseMesh(rig, POSES[1]!)),
+    tracer.replaceMesh('body', poseMesh(other, POSES[2]!)),
+  ]);
+  const expected = await fresh({ ...poseMesh(other, POSES[2]!) });
+  expect(differing(await beauty(tracer), expected)).toBeLessThanOrEqual(6);
+  // A poser of a rig that is no longer shown keeps nothing.
+  const bytes = async () => {
+    await tracer.replaceMesh('body', rig.bind);
+    return tracer.statistics.gpuBytes;
+  };
+  const before = await bytes();
+  await tracer.replaceMesh('body', poseMesh(rig, POSES[1]!));
+  await tracer.replaceMesh('body', poseMesh(rig, POSES[2]!));
+  expect(tracer.statistics.gpuBytes).toBeGreaterThan(before);
+  expect(await bytes()).toBe(before);
+  tracer.destroy();
+});
+
+it('replacing a mesh computes no vertices of others that the GPU has posed', async () => {
+  const { tracer } = await posed('gpu', POSES);
+  const mesh = poseMesh(rig, POSES[1]!);
+  const positions = vi.fn<() => Mesh['positions']>(() => mesh.positions);
+  await tracer.replaceMesh(
+    'body',
+    Object.defineProperties({} as Mesh, {
+      ...Object.getOwnPropertyDescriptors(mesh),
+      positions: { enumerable: true, get: positions },
+    }),
+  );
+  const { positions: corners, ...wall } = tracer.scene.meshes[0]!;
+  await tracer.replaceMesh(0, { ...wall, positions: corners.map((x) => 0.9 * x) });
+  expect(positions).not.toHaveBeenCalled();
   tracer.destroy();
 });

@@ -5,17 +5,19 @@ import { validateScene } from '../validate';
 
 /** How a mesh can be posed; see {@link createRig}. */
 export interface RigOptions {
+  /** The joints that move each vertex. Absent: only targets do. */
   readonly skin?: MeshSkin | undefined;
+  /** What can be blended in, in the order of a pose's weights. */
   readonly targets?: readonly MorphTarget[] | undefined;
 }
 
-function expect(fits: boolean, code: 'length' | 'not-finite' | 'reference' | 'value', message: string): void {
-  if (!fits) throw new SceneError(`scene/${code}`, message);
+function fault(code: 'length' | 'not-finite' | 'reference' | 'value', message: string): SceneError {
+  return new SceneError(`scene/${code}`, message);
 }
 
 function expectFinite(values: Float32Array, what: string): void {
   for (let i = 0; i < values.length; i++)
-    expect(Number.isFinite(values[i]), 'not-finite', `${what}: number ${i} is ${values[i]}.`);
+    if (!Number.isFinite(values[i])) throw fault('not-finite', `${what}: number ${i} is ${values[i]}.`);
 }
 
 /**
@@ -34,25 +36,23 @@ export function createRig(bind: Mesh, { skin, targets = [] }: RigOptions): MeshR
   const length = bind.positions.length;
   if (skin) {
     const { jointCount, joints, weights } = skin;
-    expect(
-      Number.isInteger(jointCount) && jointCount >= 1 && jointCount <= 65536,
-      'value',
-      `${name}: jointCount is ${jointCount}; it must be a whole number from 1 to 65536.`,
-    );
+    if (!(Number.isInteger(jointCount) && jointCount >= 1 && jointCount <= 65536))
+      throw fault('value', `${name}: jointCount is ${jointCount}; it must be a whole number from 1 to 65536.`);
     const set = (4 * length) / 3;
-    expect(
-      joints.length > 0 && joints.length % set === 0 && weights.length === joints.length,
-      'length',
-      `${name}: there are ${joints.length} joints and ${weights.length} weights; both must be ${set}, or a multiple of it.`,
-    );
+    if (joints.length === 0 || joints.length % set !== 0 || weights.length !== joints.length)
+      throw fault(
+        'length',
+        `${name}: there are ${joints.length} joints and ${weights.length} weights; both must be ${set}, or a multiple of it.`,
+      );
     expectFinite(weights, `${name}: weights of the skin`);
     for (let i = 0; i < joints.length; i++) {
-      expect((weights[i] as number) >= 0, 'value', `${name}: weight ${i} of the skin is ${weights[i]}, below 0.`);
-      expect(
-        (joints[i] as number) < jointCount,
-        'reference',
-        `${name}: number ${i} of the skin's joints is ${joints[i]}; there are ${jointCount} joints.`,
-      );
+      if ((weights[i] as number) < 0)
+        throw fault('value', `${name}: weight ${i} of the skin is ${weights[i]}, below 0.`);
+      if ((joints[i] as number) >= jointCount)
+        throw fault(
+          'reference',
+          `${name}: number ${i} of the skin's joints is ${joints[i]}; there are ${jointCount} joints.`,
+        );
     }
   }
   targets.forEach((target, i) => {
@@ -60,7 +60,8 @@ export function createRig(bind: Mesh, { skin, targets = [] }: RigOptions): MeshR
       const values = target[key];
       if (!values) continue;
       const what = `${name}: ${key} of morph target ${i}`;
-      expect(values.length === length, 'length', `${what} have ${values.length} numbers; they must have ${length}.`);
+      if (values.length !== length)
+        throw fault('length', `${what} have ${values.length} numbers; they must have ${length}.`);
       expectFinite(values, what);
     }
   });

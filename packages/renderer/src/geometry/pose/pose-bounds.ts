@@ -1,6 +1,6 @@
 import type { MeshPose, MeshRig } from '@glanz/scene';
 
-/** Room for rounding on the GPU, relative to the largest terms of a vertex. */
+/** Margin for rounding on the GPU, relative to the largest terms of a vertex. */
 const MARGIN = 2 ** -16;
 
 /** min xyz, max xyz. */

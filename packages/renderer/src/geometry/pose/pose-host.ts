@@ -12,6 +12,9 @@ export interface PosingChange {
   readonly rewrite?: () => void;
 }
 
+/** Writes a mesh with a hierarchy that is on the CPU to its region. */
+export type WriteMesh = (mesh: Mesh, tree: Hierarchy, region: MeshRegion) => void;
+
 /** What poses use of a scene's shapes. */
 export interface PosedGeometry {
   readonly placement: Placement;

@@ -38,7 +38,10 @@ export function packRig({ bind: mesh, skin, targets }: MeshRig): RigData {
   return { bind, influences, targets: added };
 }
 
-/** Words of a pose for the kernel, with the targets that have a weight; undefined where single precision has no room. */
+/**
+ * Words of a pose for the kernel, with the targets that have a weight; undefined where single precision cannot hold
+ * them.
+ */
 export function packPose({
   rig,
   joints,

@@ -98,6 +98,7 @@ export class RigPoser {
   #poses = 0;
   #isMeasuring = false;
   #needsRebuild = false;
+  #isDestroyed = false;
   #measured: Promise<unknown> = Promise.resolve();
 
   private constructor(
@@ -209,6 +210,10 @@ export class RigPoser {
     return this.#needsRebuild;
   }
 
+  get isDestroyed(): boolean {
+    return this.#isDestroyed;
+  }
+
   /** Settles when the poses so far have been measured. */
   get measured(): Promise<unknown> {
     return this.#measured;
@@ -269,6 +274,7 @@ export class RigPoser {
   }
 
   destroy(): void {
+    this.#isDestroyed = true;
     this.#refit.destroy();
     this.#refitter.destroy();
     this.#cost.destroy();
