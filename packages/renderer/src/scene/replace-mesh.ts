@@ -28,6 +28,9 @@ interface MeshHost extends PoseHost<Geometry> {
 
 const NO_POSES: Partial<Awaited<ReturnType<typeof loadGpuTrees>>> = {};
 
+/** The change of a tracer that was destroyed. */
+const NOTHING: SceneChange = { isStale: () => false, apply: () => false, undo: () => undefined };
+
 /** See `PathTracer.replaceMesh`. */
 export async function replaceMesh(
   editor: MeshHost,
@@ -44,7 +47,11 @@ export async function replaceMesh(
   const { poseOnGpu, discardPoser } = editor.builders.gpu && isPosed() ? await loadGpuTrees() : NO_POSES;
   const posed = await poseOnGpu?.(editor, index, mesh, (before, tree, region) =>
     editor.gpu.writeShapes(meshSlices(index, before, tree, region)),
-  );
+  ).catch((error: unknown) => {
+    // The edit ends without an error, as all do that the tracer is destroyed under.
+    if (editor.builders.gpu?.memory.destroyed) return NOTHING;
+    throw error;
+  });
   if (posed) return posed;
   validateScene({ ...createScene(), meshes: [mesh] });
   const change = await replaced(editor, tools, index, mesh);

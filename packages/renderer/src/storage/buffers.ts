@@ -22,13 +22,18 @@ export interface PagedArray {
   destroy(): void;
 }
 
+/** A buffer, a texture, or what has several. */
+interface Owned {
+  destroy(): void;
+}
+
 /**
  * Owns GPU buffers and textures: counts their bytes, checks every size against the device's limits before it is asked
  * for, and destroys all of them at once.
  */
 export class GpuMemory {
   readonly #device: GPUDevice;
-  readonly #live = new Map<GPUBuffer | GPUTexture | PagedArray, { readonly label: string; readonly bytes: number }>();
+  readonly #live = new Map<Owned, { readonly label: string; readonly bytes: number }>();
   #bytes = 0;
   #destroyed = false;
 
@@ -101,20 +106,20 @@ export class GpuMemory {
     return texture;
   }
 
-  /** Takes a buffer or an array over that others have made. */
-  adopt(label: string, buffer: GPUBuffer | PagedArray): void {
+  /** Takes a resource over that others have made. */
+  adopt(label: string, buffer: Owned & { readonly size: number }): void {
     this.#keep(buffer, label, buffer.size);
   }
 
   /** Runs what makes buffers and textures. @returns What it returns, and those that it has made. */
-  track<T>(make: () => T): [made: T, resources: readonly (GPUBuffer | GPUTexture | PagedArray)[]] {
+  track<T>(make: () => T): [made: T, resources: readonly Owned[]] {
     const before = this.#live.size;
     // In the order in which they were made.
     return [make(), [...this.#live.keys()].slice(before)];
   }
 
   /** Destroys one buffer or texture; unknown ones are ignored. */
-  release(resource: GPUBuffer | GPUTexture | PagedArray | undefined): void {
+  release(resource: Owned | undefined): void {
     if (!resource) return;
     const held = this.#live.get(resource);
     if (held === undefined) return;
@@ -128,7 +133,7 @@ export class GpuMemory {
     for (const resource of this.#live.keys()) this.release(resource);
   }
 
-  #keep(resource: GPUBuffer | GPUTexture | PagedArray, label: string, bytes: number): void {
+  #keep(resource: Owned, label: string, bytes: number): void {
     this.#live.set(resource, { label, bytes });
     this.#bytes += bytes;
   }

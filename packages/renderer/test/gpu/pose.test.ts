@@ -45,13 +45,14 @@ async function fresh(mesh: Mesh): Promise<Float32Array> {
   return pixels;
 }
 
-/** The device, and how many poses it has been given. */
-function counted() {
+/** The device, and how many poses it has been given. @param began Called with the label of all that it records. */
+function counted(began: (label: string) => void = () => undefined) {
   const count = { poses: 0, builds: 0 };
   const proxy = new Proxy(device, {
     get(target, name) {
       if (name === 'createCommandEncoder')
         return (of: GPUCommandEncoderDescriptor) => {
+          began(of.label ?? '');
           if (of.label === 'glanz pose') count.poses++;
           if (of.label === 'bvh keep') count.builds++;
           return target.createCommandEncoder(of);
@@ -214,3 +215,26 @@ it('replacing a mesh computes no vertices of others that the GPU has posed', asy
   expect(positions).not.toHaveBeenCalled();
   tracer.destroy();
 });
+
+it.each(['glanz read', 'bvh build', 'bvh read', 'glanz tree cost', 'glanz pose'])(
+  'destroyed during "%s" of a pose, a tracer keeps no memory, and the edit ends',
+  async (step) => {
+    let tracer: PathTracer | undefined;
+    let isDestroyed = false;
+    const { device: watched } = counted((label) => {
+      if (label !== step || !tracer) return;
+      const { destroy } = tracer;
+      tracer = undefined;
+      queueMicrotask(() => {
+        isDestroyed = true;
+        destroy.call(made);
+      });
+    });
+    const made = await PathTracer.create(watched, sceneOf(poseMesh(rig, POSES[1]!)), { ...options, bvhBuilder: 'gpu' });
+    tracer = made;
+    await made.replaceMesh('body', poseMesh(rig, POSES[2]!));
+    expect(isDestroyed).toBe(true);
+    expect(made.statistics.gpuBytes).toBe(0);
+    await expect(made.replaceMesh('body', rig.bind)).rejects.toMatchObject({ code: 'renderer/destroyed' });
+  },
+);

@@ -45,7 +45,8 @@ export async function poseOnGpu<G extends PosedGeometry>(
   const posing = await posingFor(editor, index, pose.rig);
   const poser = await posing?.poser;
   const present = scene.meshes[index] as Mesh;
-  // Another edit may have come meanwhile.
+  // Another edit may have come meanwhile, and discarded it.
+  if (posing && posings.get(editor)?.get(index) !== posing) return poseOnGpu(editor, index, mesh, write);
   if (!posing || !poser || !packed || present.pose?.rig !== pose.rig) return undefined;
   if (poser.needsRebuild && !scene.meshes.includes(mesh)) {
     // A mesh that was shown before has a hierarchy: it is built again all the same, once.
@@ -117,8 +118,7 @@ async function posingFor(editor: Posable, index: number, rig: MeshRig): Promise<
     if (own.get(index) === posing) own.delete(index);
     throw error;
   }
-  // An edit has discarded it meanwhile.
-  return own.get(index) === posing ? posing : posingFor(editor, index, rig);
+  return posing;
 }
 
 function discard(own: Map<number, Posing>, index: number, { poser }: Posing): void {

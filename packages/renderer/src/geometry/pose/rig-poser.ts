@@ -1,16 +1,18 @@
 import type { Blas } from '@glanz/bvh';
 import { GpuRefitter, type PreparedRefit } from '@glanz/bvh/gpu';
 import type { MeshPose, MeshRig } from '@glanz/scene';
+import { GlanzError } from '@glanz/wgsl';
 import { compose } from '@glanz/wgsl/compose';
 import type { WgslModule } from '@glanz/wgsl/module';
 import { beginShaderModule } from '@glanz/wgsl/shader';
-import { withErrorScopes } from '../../device/error-scopes';
+import { lossOr, withErrorScopes } from '../../device/error-scopes';
+import { DeviceError, RenderError } from '../../errors';
 import {
   GPU_BUFFER_COPY_DST,
   GPU_BUFFER_COPY_SRC,
   GPU_BUFFER_STORAGE,
   GPU_BUFFER_UNIFORM,
-  type GpuMemory,
+  GpuMemory,
   type PagedArray,
 } from '../../storage/buffers';
 import type { ShapeArray } from '../../storage/shape-arrays';
@@ -84,11 +86,15 @@ async function compile(
 export class RigPoser {
   readonly rig: MeshRig;
   readonly #device: GPUDevice;
+  /** The tracer's, which frees the poser with everything else. */
   readonly #memory: GpuMemory;
+  /** The poser's own buffers. */
+  readonly #own: GpuMemory;
+  /** What the tracer's memory holds of the poser. */
+  readonly #held: { readonly size: number; readonly destroy: () => void };
   readonly #buffers: Readonly<Record<string, GPUBuffer>>;
   readonly #pipeline: GPUComputePipeline;
   readonly #group: GPUBindGroup;
-  readonly #refitter: GpuRefitter;
   readonly #refit: PreparedRefit;
   readonly #cost: TreeCost;
   readonly #bounds: PoseBounds;
@@ -98,13 +104,13 @@ export class RigPoser {
   #poses = 0;
   #isMeasuring = false;
   #needsRebuild = false;
-  #isDestroyed = false;
   #measured: Promise<unknown> = Promise.resolve();
 
   private constructor(
     { device, memory }: GpuBuilds,
     rig: MeshRig,
     base: Blas,
+    own: GpuMemory,
     made: {
       readonly buffers: Readonly<Record<string, GPUBuffer>>;
       readonly pipeline: GPUComputePipeline;
@@ -116,10 +122,10 @@ export class RigPoser {
     this.rig = rig;
     this.#device = device;
     this.#memory = memory;
+    this.#own = own;
     this.#base = base;
     this.#buffers = made.buffers;
     this.#pipeline = made.pipeline;
-    this.#refitter = made.refitter;
     this.#refit = made.refit;
     this.#cost = made.cost;
     this.#bounds = new PoseBounds(rig);
@@ -130,30 +136,43 @@ export class RigPoser {
       layout: made.pipeline.getBindGroupLayout(0),
       entries: bound.map((buffer, binding) => ({ binding, resource: { buffer: buffer as GPUBuffer } })),
     });
+    this.#held = {
+      // The refitter has 4 bytes a node.
+      size: own.bytes + 4 * base.nodeCount,
+      destroy: () => {
+        made.refit.destroy();
+        made.refitter.destroy();
+        own.destroy();
+      },
+    };
+    memory.adopt('pose', this.#held);
   }
 
   /**
    * @param base The hierarchy to refit, of any pose.
-   * @throws {DeviceError} `renderer/out-of-memory`, `renderer/gpu-error`, {BvhError} as `GpuRefitter.create`.
+   * @throws {DeviceError} `renderer/device-lost`, `renderer/out-of-memory`, `renderer/gpu-error`; {RenderError}
+   * `renderer/destroyed` where the tracer was destroyed meanwhile; {BvhError} as `GpuRefitter.create`.
    */
   static async create(builds: GpuBuilds, rig: MeshRig, base: Blas): Promise<RigPoser> {
     const { device, memory } = builds;
     const { bind, influences, targets } = packRig(rig);
     const { positions, indices, normals, tangents } = rig.bind;
     const storage = GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC;
-    const own: GPUBuffer[] = [];
-    const make = (name: string, bytes: number, usage = storage) => {
-      const buffer = memory.buffer(`pose ${name}`, bytes, usage);
-      own.push(buffer);
-      return buffer;
+    // An account of its own: the tracer may be destroyed while the GPU is still to use these buffers.
+    const own = new GpuMemory(device);
+    const make = (name: string, bytes: number, usage = storage) => own.buffer(`pose ${name}`, bytes, usage);
+    const expectAlive = () => {
+      if (memory.destroyed) throw new RenderError('renderer/destroyed', 'This tracer was destroyed.');
     };
     const upload = (name: string, data: Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>) => {
       const buffer = make(name, data.byteLength);
-      memory.write(buffer, data);
+      own.write(buffer, data);
       return buffer;
     };
     let refitter: GpuRefitter | undefined;
+    let refit: PreparedRefit | undefined;
     try {
+      expectAlive();
       const attributes = posedAttributes(rig.bind);
       const compiled = Promise.all([
         pipelineFor(device, 'glanz pose', pose, { RIG_NORMALS: attributes > 1, RIG_TANGENTS: attributes > 2 }),
@@ -173,30 +192,38 @@ export class RigPoser {
         order: upload('order', base.triangleIndices as Uint32Array<ArrayBuffer>),
         triangles: make('triangles', TRIANGLE_BYTES * base.triangleIndices.length),
       }));
+      expectAlive();
       const { nodes, order: triangleIndices, triangles } = buffers;
       const { nodeCount } = base;
       refitter = await GpuRefitter.create(device, { nodes, nodeCount, triangleIndices, depth: MAX_DEPTH });
+      expectAlive();
       const mesh = {
         positions: buffers.positions,
         vertexCount: positions.length / 3,
         indices: buffers.indices,
         triangleCount: indices.length / 3,
       };
-      const refit = await refitter.prepare(mesh, triangles);
+      refit = await refitter.prepare(mesh, triangles);
       const [pipeline, costs] = await compiled;
-      const cost = await withErrorScopes(device, 'the poses of this mesh', () => {
-        return new TreeCost(device, memory, costs, nodes);
-      });
+      expectAlive();
+      const cost = await withErrorScopes(
+        device,
+        'the poses of this mesh',
+        () => new TreeCost(device, own, costs, nodes),
+      );
       const encoder = device.createCommandEncoder({ label: 'glanz tree cost' });
       cost.encode(encoder);
       device.queue.submit([encoder.finish()]);
-      const poser = new RigPoser(builds, rig, base, { buffers, pipeline, refitter, refit, cost });
-      poser.#builtCost = await cost.read();
+      const builtCost = await cost.read();
+      expectAlive();
+      const poser = new RigPoser(builds, rig, base, own, { buffers, pipeline, refitter, refit, cost });
+      poser.#builtCost = builtCost;
       return poser;
     } catch (error) {
+      refit?.destroy();
       refitter?.destroy();
-      for (const buffer of own) memory.release(buffer);
-      throw error;
+      own.destroy();
+      throw await faultOf(device, error);
     }
   }
 
@@ -211,7 +238,7 @@ export class RigPoser {
   }
 
   get isDestroyed(): boolean {
-    return this.#isDestroyed;
+    return this.#own.destroyed;
   }
 
   /** Settles when the poses so far have been measured. */
@@ -230,7 +257,7 @@ export class RigPoser {
     const { bind, skin } = this.rig;
     const vertices = bind.positions.length / 3;
     const write = (buffer: GPUBuffer, words: Float32Array<ArrayBuffer> | Uint32Array<ArrayBuffer>) =>
-      this.#memory.write(buffer, words);
+      this.#own.write(buffer, words);
     write(numbers as GPUBuffer, Uint32Array.of(vertices, setsOf(this.rig), skin?.jointCount ?? 0, targets));
     if (data.length > 0) write(pose as GPUBuffer, data);
     const encoder = this.#device.createCommandEncoder({ label: 'glanz pose' });
@@ -274,12 +301,20 @@ export class RigPoser {
   }
 
   destroy(): void {
-    this.#isDestroyed = true;
-    this.#refit.destroy();
-    this.#refitter.destroy();
-    this.#cost.destroy();
-    for (const buffer of Object.values(this.#buffers)) this.#memory.release(buffer);
+    this.#memory.release(this.#held);
   }
+}
+
+/** The typed error of what failed; a lost device makes anything fail. */
+async function faultOf(device: GPUDevice, error: unknown): Promise<unknown> {
+  if (error instanceof DeviceError || error instanceof RenderError) return error;
+  const { message } = error as Error;
+  return lossOr(
+    device,
+    error instanceof GlanzError
+      ? error
+      : new DeviceError('renderer/gpu-error', `The GPU failed at the poses of this mesh: ${message}`, { cause: error }),
+  );
 }
 
 /** Whether a device can bind all that a rig's poser needs. */

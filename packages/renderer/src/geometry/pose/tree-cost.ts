@@ -12,15 +12,13 @@ const BYTES = 4 * (GROUPS + 1);
 
 /** Measures what a hierarchy on the GPU costs: `sahCost` of `@glanz/bvh/statistics`, in single precision. */
 export class TreeCost {
-  readonly #memory: GpuMemory;
   readonly #pipeline: GPUComputePipeline;
   readonly #group: GPUBindGroup;
   readonly #sums: GPUBuffer;
   readonly #staging: GPUBuffer;
 
-  /** @param pipeline Of tree_cost.wesl. @param nodes As large as the hierarchy. */
+  /** @param memory Frees its buffers. @param pipeline Of tree_cost.wesl. @param nodes As large as the hierarchy. */
   constructor(device: GPUDevice, memory: GpuMemory, pipeline: GPUComputePipeline, nodes: GPUBuffer) {
-    this.#memory = memory;
     this.#pipeline = pipeline;
     this.#sums = memory.buffer('pose cost', BYTES, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_SRC);
     this.#staging = memory.buffer('pose cost read', BYTES, GPU_BUFFER_MAP_READ | GPU_BUFFER_COPY_DST);
@@ -41,7 +39,7 @@ export class TreeCost {
     encoder.copyBufferToBuffer(this.#sums, 0, this.#staging, 0, BYTES);
   }
 
-  /** What was recorded last, once it is submitted. Rejects where it is destroyed meanwhile. */
+  /** What was recorded last, once it is submitted. Rejects where its buffers are destroyed meanwhile. */
   async read(): Promise<number> {
     // GPUMapMode.READ, a global of browsers only.
     await this.#staging.mapAsync(1);
@@ -49,9 +47,5 @@ export class TreeCost {
     this.#staging.unmap();
     const root = sums[GROUPS] as number;
     return root > 0 ? 1 + sums.subarray(0, GROUPS).reduce((a, b) => a + b, 0) / root : 1;
-  }
-
-  destroy(): void {
-    for (const buffer of [this.#sums, this.#staging]) this.#memory.release(buffer);
   }
 }
