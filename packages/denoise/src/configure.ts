@@ -1,6 +1,6 @@
 import { DenoiseError } from './error';
-import { chooseMatrices, matricesOf, type DeviceMatrices } from './kernels/choose-matrices';
 import { chooseShape, withGroups } from './kernels/choose-shape';
+import type { DeviceMatrices } from './kernels/shapes';
 import { readNetwork, type Network } from './network';
 import type { DenoiserInput, DenoiserOptions } from './options';
 import type { PlanOptions } from './plan';
@@ -77,7 +77,7 @@ export function shapesOf(
   return (layer, width, height) => {
     const family = shapeOf?.(layer, width, height);
     const shape = family && withGroups(family, layer);
-    return shape ?? (matrices && chooseMatrices(layer, matrices)) ?? chooseShape(layer, width, height, software);
+    return shape ?? matrices?.shapeOf(layer) ?? chooseShape(layer, width, height, software);
   };
 }
 
@@ -86,5 +86,10 @@ export async function matricesFor(
   device: GPUDevice,
   { storage, subgroupMatrices = true }: Pick<DenoiserOptions, 'storage' | 'subgroupMatrices'>,
 ): Promise<DeviceMatrices | undefined> {
-  return subgroupMatrices && storage !== 'f32' ? matricesOf(device) : undefined;
+  const { features } = device;
+  if (!subgroupMatrices || storage === 'f32') return undefined;
+  if (!features.has('shader-f16') || !features.has('chromium-experimental-subgroup-matrix')) return undefined;
+  // Few devices have them: others do not load this. Without it threads do the work.
+  const module = await import('./kernels/choose-matrices').catch(() => undefined);
+  return module?.matricesOf(device);
 }

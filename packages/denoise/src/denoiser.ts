@@ -2,7 +2,7 @@ import { Chain, makeStages, type Stage } from './chain';
 import { checkOptions, matricesFor, readNetworks, shapesOf, type NetworkOf } from './configure';
 import { DenoiseError } from './error';
 import { lossOf } from './gpu';
-import type { DeviceMatrices } from './kernels/choose-matrices';
+import type { DeviceMatrices } from './kernels/shapes';
 import { checkSize } from './images';
 import { JobCursor, costOf } from './jobs';
 import type {

@@ -2,11 +2,9 @@ import { STORAGE, compileKernel, filledBuffer, type BindingKind, type Kernel } f
 import { convolutionModule } from './kernels/convolution.wgsl';
 import encode from './kernels/encode.wesl';
 import exposure from './kernels/exposure.wesl';
-import { matrixConvolution } from './kernels/matrix-convolution.wgsl';
 import { hasMatrices, shapeName, tileOutputs } from './kernels/shapes';
 import type { Network } from './network';
 import type { DenoiserInput, DenoiserStorage } from './options';
-import { packMatrices } from './pack-matrices';
 import { packWeights, type PackedWeights } from './pack-weights';
 import type { LayerPlan } from './plan';
 
@@ -97,7 +95,7 @@ export class NetworkKernels {
       if (last) Object.assign(bindings, { 6: 'dynamic', 7: 'read', 8: 'read' });
       if (hasMatrices(shape)) bindings[6] = 'read';
       const module = hasMatrices(shape)
-        ? matrixConvolution({ shape, pool: layer.pool })
+        ? shape.code.convolution({ shape, pool: layer.pool })
         : convolutionModule({ shape, up, directChannels: layer.directChannels, pool: layer.pool, last });
       kernel = compileKernel(this.#device, `denoise ${key}`, module, this.#flags, bindings);
       this.#convolutions.set(key, kernel);
@@ -110,11 +108,11 @@ export class NetworkKernels {
   /** A layer's weights, packed for its shape. */
   weights({ layer, shape }: LayerPlan): { readonly buffer: GPUBuffer; readonly packed: PackedWeights } {
     const multiple = tileOutputs(shape);
-    const matrix = hasMatrices(shape) ? shape.matrix : undefined;
-    const key = `${layer.name} ${multiple} ${matrix ? `${matrix.n}x${matrix.k}` : ''}`;
+    const matrices = hasMatrices(shape) ? shape : undefined;
+    const key = `${layer.name} ${multiple}${matrices ? ' in matrices' : ''}`;
     let known = this.#weights.get(key);
     if (!known) {
-      const packed = matrix ? packMatrices(layer, multiple, matrix) : packWeights(layer, multiple);
+      const packed = matrices ? matrices.code.pack(layer, multiple, matrices.matrix) : packWeights(layer, multiple);
       known = {
         buffer: filledBuffer(this.#device, `denoise ${layer.name}`, packed.data.buffer as ArrayBuffer, STORAGE),
         packed,

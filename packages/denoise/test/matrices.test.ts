@@ -3,20 +3,22 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { compose } from '@glanz/wgsl/compose';
 import { afterEach, describe, expect, it } from 'vitest';
 import { concatenate, convolveChannel, pool, upsample, type Planes } from '../src/cpu/layers';
-import { chooseMatrices, matricesOf, type DeviceMatrices } from '../src/kernels/choose-matrices';
+import { matricesFor } from '../src/configure';
+import { chooseMatrices } from '../src/kernels/choose-matrices';
 import { layerStruct } from '../src/kernels/layouts';
 import { matrixConvolution } from '../src/kernels/matrix-convolution.wgsl';
 import { matrixBytes, threadsOf, tileHeight, tileOutputs, tileWidth, type MatrixShape } from '../src/kernels/shapes';
 import { readNetwork, type Layer } from '../src/network';
-import { halfBits, packMatrices } from '../src/pack-matrices';
+import { halfBits, packMatrices } from '../src/kernels/pack-matrices';
 import { quadsOf } from '../src/pack-weights';
 import { download } from './gpu';
 import { Denoiser } from '../src/index';
 import { numbersFrom, randomNetwork } from './random-network';
 
-const HOPPER: DeviceMatrices = { matrix: { m: 16, n: 16, k: 16 }, lanes: 32 };
+/** Of NVIDIA's GPUs. */
+const large = (layer: Layer, lanes = 32) => chooseMatrices(layer, { m: 16, n: 16, k: 16 }, lanes);
 /** What {@link emulated} computes with: a subgroup is one thread. */
-const SMALL: DeviceMatrices = { matrix: { m: 2, n: 4, k: 8 }, lanes: 1 };
+const small = (layer: Layer) => chooseMatrices(layer, { m: 2, n: 4, k: 8 }, 1);
 
 /** A layer of random weights, which are halves. */
 function layerOf(upChannels: number, directChannels: number, channels: number, pooled = false): Layer {
@@ -107,7 +109,7 @@ fn store_sums(subgroup: u32, sums: DenoiseSums, stride: u32) {
  */
 async function run(layer: Layer, direct: Planes, up: Planes | undefined, fromRow = 0): Promise<Planes> {
   const device = await testDevice();
-  const shape = chooseMatrices(layer, SMALL)!;
+  const shape = small(layer)!;
   const packed = packMatrices(layer, tileOutputs(shape), shape.matrix);
   const flags = { DENOISE_HALF: true, DENOISE_F16: false };
   const code = emulated(shape.matrix, compose([matrixConvolution({ shape, pool: layer.pool })], { flags }).code);
@@ -209,7 +211,7 @@ describe('convolution by subgroup matrices', () => {
     expect([gpu.channels, gpu.width, gpu.height]).toEqual([cpu.channels, cpu.width, cpu.height]);
     // Stored as halves, of sums whose order differs; sums of the upsampled source's weights are rounded to halves.
     const rounding = up ? 2 ** -10 * (1 + 0.25 * Math.sqrt(layer.upChannels * 4)) : 2 ** -11;
-    const above = (fromRow * tileHeight(chooseMatrices(layer, SMALL)!)) / (layer.pool ? 2 : 1);
+    const above = (fromRow * tileHeight(small(layer)!)) / (layer.pool ? 2 : 1);
     for (const [i, value] of gpu.data.entries())
       if (Math.floor(i / gpu.width) % gpu.height >= above)
         expect(Math.abs(value - cpu.data[i]!), `value ${i}`).toBeLessThanOrEqual(rounding * Math.max(1, cpu.data[i]!));
@@ -226,7 +228,7 @@ describe('convolution by subgroup matrices', () => {
     const seen = new Set<string>();
     for (const channels of [16, 32, 48, 64, 80, 96, 112, 128, 192])
       for (const layer of [layerOf(0, 9, channels), layerOf(0, 32, channels, true), layerOf(channels, 32, channels)]) {
-        const shape = chooseMatrices(layer, { ...HOPPER, lanes: 128 })!;
+        const shape = large(layer, 128)!;
         const { code } = compose([matrixConvolution({ shape, pool: layer.pool })], { flags });
         if (seen.has(code)) continue;
         seen.add(code);
@@ -244,13 +246,13 @@ describe('convolution by subgroup matrices', () => {
     for (const graph of ['plain', 'large'] as const)
       for (const layer of readNetwork(randomNetwork(9, graph)).layers)
         for (const channels of [16, 32, 64, 80, 96, 112, 128, 200]) {
-          const shape = chooseMatrices({ ...layer, channels }, HOPPER)!;
+          const shape = large({ ...layer, channels })!;
           expect(matrixBytes(shape)).toBeLessThanOrEqual(16384);
           expect(threadsOf(shape)).toBeLessThanOrEqual(256);
           if (layer.pool) expect(shape.rows % 2).toBe(0);
           if (channels <= 64) expect(tileOutputs(shape)).toBe(Math.ceil(channels / 16) * 16);
         }
-    expect(chooseMatrices(layerOf(0, 9, 12), HOPPER)).toBeUndefined();
+    expect(large(layerOf(0, 9, 12))).toBeUndefined();
   });
 
   it('gives way to threads where a driver does not compile it', async () => {
@@ -285,7 +287,7 @@ describe('convolution by subgroup matrices', () => {
   });
 
   it('is not used by devices without the features', async () => {
-    expect(await matricesOf(await testDevice())).toBeUndefined();
+    expect(await matricesFor(await testDevice(), {})).toBeUndefined();
   });
 });
 

@@ -1,11 +1,15 @@
 import type { Layer } from '../network';
-import { matrixBytes, threadsOf, tileOutputs, type MatrixShape, type MatrixSize } from './shapes';
-
-/** Matrices that a device multiplies, and the threads that do so together. */
-export interface DeviceMatrices {
-  readonly matrix: MatrixSize;
-  readonly lanes: number;
-}
+import { packMatrices } from './pack-matrices';
+import { matrixConvolution } from './matrix-convolution.wgsl';
+import {
+  matrixBytes,
+  threadsOf,
+  tileOutputs,
+  type DeviceMatrices,
+  type MatrixCode,
+  type MatrixShape,
+  type MatrixSize,
+} from './shapes';
 
 /** An entry of `GPUAdapterInfo.subgroupMatrixConfigs`, which is not yet among WebGPU's types. */
 interface MatrixConfig {
@@ -50,8 +54,7 @@ fn main() {
 }
 
 async function findMatrices(device: GPUDevice): Promise<DeviceMatrices | undefined> {
-  const { features, adapterInfo } = device;
-  if (!features.has('shader-f16') || !features.has('chromium-experimental-subgroup-matrix')) return undefined;
+  const { adapterInfo } = device;
   const {
     subgroupMinSize,
     subgroupMaxSize: lanes,
@@ -67,21 +70,24 @@ async function findMatrices(device: GPUDevice): Promise<DeviceMatrices | undefin
   const sizes = subgroupMatrixConfigs.length === 0 ? USUAL : listed;
   const usable = sizes.filter(({ m, n, k }) => m % 2 === 0 && n % 4 === 0 && k % 8 === 0);
   for (const matrix of usable.toSorted((a, b) => b.m * b.n * b.k - a.m * a.n * a.k))
-    if (await compiles(device, matrix, lanes)) return { matrix, lanes };
+    if (await compiles(device, matrix, lanes))
+      return { matrix, lanes, shapeOf: (layer) => chooseMatrices(layer, matrix, lanes) };
   return undefined;
 }
 
 const known = new WeakMap<GPUDevice, Promise<DeviceMatrices | undefined>>();
 
 /**
- * The largest matrices of halves with sums in single precision that the device multiplies; `undefined` without the
- * features `shader-f16` and `chromium-experimental-subgroup-matrix`, or where the size of subgroups is not known.
+ * The largest matrices of halves with sums in single precision that a device multiplies, which has the features
+ * `shader-f16` and `chromium-experimental-subgroup-matrix`; `undefined` where the size of subgroups is not known.
  */
 export function matricesOf(device: GPUDevice): Promise<DeviceMatrices | undefined> {
   let found = known.get(device);
   if (!found) known.set(device, (found = findMatrices(device)));
   return found;
 }
+
+const CODE: MatrixCode = { convolution: matrixConvolution, pack: packMatrices };
 
 /** Bytes of workgroup memory, and threads, that every device has. */
 const WORKGROUP = { bytes: 16384, threads: 256 } as const;
@@ -90,7 +96,7 @@ const WORKGROUP = { bytes: 16384, threads: 256 } as const;
  * The shape for a layer; `undefined` where there are too few output channels to fill a matrix. On an H200 one matrix of
  * output channels a subgroup is faster than two or four, and eight rows than four where a layer has more than two.
  */
-export function chooseMatrices(layer: Layer, { matrix, lanes }: DeviceMatrices): MatrixShape | undefined {
+export function chooseMatrices(layer: Layer, matrix: MatrixSize, lanes: number): MatrixShape | undefined {
   const { channels } = layer;
   if (channels < matrix.n) return undefined;
   const up = layer.up !== undefined;
@@ -98,6 +104,7 @@ export function chooseMatrices(layer: Layer, { matrix, lanes }: DeviceMatrices):
   const rows = up ? 2 : blocks > 2 ? 8 : 4;
   const shapes = Array.from({ length: Math.min(8, blocks) }, (_, i) => ({
     matrix,
+    code: CODE,
     lanes,
     rows,
     subgroups: i + 1,

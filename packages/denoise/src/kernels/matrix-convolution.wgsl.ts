@@ -1,14 +1,15 @@
 import { wgslModule, type WgslModule } from '@glanz/wgsl/module';
 import { DenoiseLayer } from './layouts';
-import { matrixPatch, matrixSums, threadsOf, tileHeight, tileWidth, type MatrixShape } from './shapes';
+import {
+  matrixPatch,
+  matrixSums,
+  threadsOf,
+  tileHeight,
+  tileWidth,
+  type MatrixConvolution,
+  type MatrixShape,
+} from './shapes';
 import tensor from './tensor.wesl';
-
-/** What the shader of a convolution by subgroup matrices depends on. */
-export interface MatrixConvolution {
-  readonly shape: MatrixShape;
-  /** Whether the maximum of 2×2 pixels is stored. */
-  readonly pool: boolean;
-}
 
 /** `f(0)`, `f(1)`, … of n, one a line. */
 const lines = (n: number, f: (i: number) => string) => Array.from({ length: n }, (_, i) => f(i)).join('\n');

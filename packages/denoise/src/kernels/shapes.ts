@@ -1,3 +1,7 @@
+import type { WgslModule } from '@glanz/wgsl/module';
+import type { Layer } from '../network';
+import type { PackedWeights } from '../pack-weights';
+
 /**
  * How threads share a convolution: a thread computes 4 pixels along x in `rows` rows, of `outputs` output channels; a
  * workgroup has `threadsX` × `threadsY` threads over pixels, several times for further outputs.
@@ -32,6 +36,27 @@ export interface MatrixSize {
   readonly k: number;
 }
 
+/** Shaders of convolutions by subgroup matrices, and their weights. */
+export interface MatrixCode {
+  convolution(kernel: MatrixConvolution): WgslModule;
+  pack(layer: Layer, multiple: number, matrix: MatrixSize): PackedWeights;
+}
+
+/** What the shader of a convolution by subgroup matrices depends on. */
+export interface MatrixConvolution {
+  readonly shape: MatrixShape;
+  /** Whether the maximum of 2×2 pixels is stored. */
+  readonly pool: boolean;
+}
+
+/** Matrices that a device multiplies, and the threads that do so together. */
+export interface DeviceMatrices {
+  readonly matrix: MatrixSize;
+  readonly lanes: number;
+  /** The shape for a layer; `undefined` where there are too few output channels to fill a matrix. */
+  shapeOf(layer: Layer): MatrixShape | undefined;
+}
+
 /**
  * How subgroups share a convolution by matrices: a subgroup computes `m` pixels along x in `rows` rows, of
  * `n` output channels. Where a source is upsampled, `m` and `rows` count pixels of the small image, and the
@@ -39,6 +64,8 @@ export interface MatrixSize {
  */
 export interface MatrixShape {
   readonly matrix: MatrixSize;
+  /** What makes its shader and packs its weights: a module that only devices with matrices load. */
+  readonly code: MatrixCode;
   /** Threads of a subgroup. */
   readonly lanes: number;
   /** Rows of pixels a subgroup; even where a layer is pooled. */

@@ -3,9 +3,15 @@ import { checkOptions, isSoftware, matricesFor, readNetworks, shapesOf } from '.
 import { DenoiseError } from '../error';
 import { ALIGNMENT, COPY_DST, UNIFORM, lossOf } from '../gpu';
 import { checkSize } from '../images';
-import { chooseMatrices, type DeviceMatrices } from '../kernels/choose-matrices';
 import { candidateShapes, chooseShape } from '../kernels/choose-shape';
-import { hasMatrices, tileHeight, type KernelFamily, type KernelShape, type ThreadShape } from '../kernels/shapes';
+import {
+  hasMatrices,
+  tileHeight,
+  type DeviceMatrices,
+  type KernelFamily,
+  type KernelShape,
+  type ThreadShape,
+} from '../kernels/shapes';
 import { allocate } from '../memory';
 import type { DenoiserOptions, LayerSize } from '../options';
 import { pauses } from '../pace';
@@ -157,7 +163,7 @@ class Tuner {
     const { layer, width, height, direct, up, result } = plan;
     const { maxStorageBufferBindingSize } = this.#device.limits;
     const compiled: Promise<Trial | undefined>[] = [];
-    const multiplied = matrices && chooseMatrices(layer, matrices);
+    const multiplied = matrices?.shapeOf(layer);
     const shapes: KernelShape[] = candidateShapes(layer, width, height, software, CANDIDATES);
     for (const shape of multiplied ? [multiplied, ...shapes] : shapes) {
       const planned = planLayer(layer, shape, direct, up, result, maxStorageBufferBindingSize);
@@ -306,7 +312,7 @@ export async function tuneShapes(
         if (!plan.result) continue;
         const key = keyOf(plan.layer, plan.width, plan.height);
         layers.set(key, { stage, plan });
-        if (!(matrices && chooseMatrices(plan.layer, matrices)))
+        if (!matrices?.shapeOf(plan.layer))
           tuned[key] ??= familyOf(chooseShape(plan.layer, plan.width, plan.height, software));
       }
     const costOf = ({ plan }: { readonly plan: LayerPlan }) => plan.costOfRow * plan.workgroups[1];

@@ -1,6 +1,6 @@
-import type { MatrixSize } from './kernels/shapes';
-import type { Layer } from './network';
-import { directWeight, upWeight, type PackedWeights } from './pack-weights';
+import type { MatrixSize } from './shapes';
+import type { Layer } from '../network';
+import { directWeight, upWeight, type PackedWeights } from '../pack-weights';
 
 const FLOAT = new Float32Array(1);
 const BITS = new Uint32Array(FLOAT.buffer);
