@@ -196,6 +196,19 @@ function expected(layer: Layer, direct: Planes, up: Planes | undefined): Planes 
   return layer.pool ? pool(planes) : planes;
 }
 
+/** Dawn's null backend offers all features and runs nothing. Its subgroups have up to 128 threads. */
+async function nullDevice(): Promise<GPUDevice> {
+  const { create } = createRequire(import.meta.url)('webgpu') as { create(flags: string[]): GPU };
+  const gpu = create(['backend=null', 'enable-dawn-features=allow_unsafe_apis']);
+  // Devices crash once what made them is collected.
+  NULL_GPUS.push(gpu);
+  const adapter = (await gpu.requestAdapter())!;
+  const requiredFeatures = ['shader-f16', 'chromium-experimental-subgroup-matrix'] as GPUFeatureName[];
+  return adapter.requestDevice({ requiredFeatures });
+}
+
+const NULL_GPUS: GPU[] = [];
+
 afterEach(() => expectNoGpuErrors());
 
 describe('convolution by subgroup matrices', () => {
@@ -218,12 +231,7 @@ describe('convolution by subgroup matrices', () => {
   });
 
   it('has text that compilers accept, within default limits, for all layers of both graphs', async () => {
-    // Dawn's null backend offers all features and runs nothing. Its subgroups have up to 128 threads.
-    const { create } = createRequire(import.meta.url)('webgpu') as { create(flags: string[]): GPU };
-    const gpu = create(['backend=null', 'enable-dawn-features=allow_unsafe_apis']);
-    const adapter = (await gpu.requestAdapter())!;
-    const requiredFeatures = ['shader-f16', 'chromium-experimental-subgroup-matrix'] as GPUFeatureName[];
-    const device = await adapter.requestDevice({ requiredFeatures });
+    const device = await nullDevice();
     const flags = { DENOISE_HALF: true, DENOISE_F16: true };
     const seen = new Set<string>();
     for (const channels of [16, 32, 48, 64, 80, 96, 112, 128, 192])
@@ -253,6 +261,34 @@ describe('convolution by subgroup matrices', () => {
           if (channels <= 64) expect(tileOutputs(shape)).toBe(Math.ceil(channels / 16) * 16);
         }
     expect(large(layerOf(0, 9, 12))).toBeUndefined();
+  });
+
+  it('computes all layers of a network that have as many channels', async () => {
+    const device = await nullDevice();
+    const programs: string[] = [];
+    const watched = new Proxy(device, {
+      get(target, key) {
+        if (key === 'adapterInfo') return { subgroupMinSize: 128, subgroupMaxSize: 128 };
+        if (key === 'createComputePipelineAsync')
+          return (descriptor: GPUComputePipelineDescriptor) => {
+            programs.push(descriptor.label!);
+            return target.createComputePipelineAsync(descriptor);
+          };
+        const value = Reflect.get(target, key) as unknown;
+        return typeof value === 'function' ? (value as (...args: unknown[]) => unknown).bind(target) : value;
+      },
+    });
+    const denoiser = await Denoiser.create(watched, randomNetwork(3));
+    await denoiser.prepare(16, 16);
+    // Of the layers two have 16 channels or more, and both an upsampled source.
+    expect(programs.filter((label) => /rows of matrices .*, upsampled/.test(label))).not.toEqual([]);
+    expect(programs.filter((label) => /threads of .*, last/.test(label))).toHaveLength(1);
+    const plain = await Denoiser.create(watched, randomNetwork(3), { subgroupMatrices: false });
+    programs.length = 0;
+    await plain.prepare(16, 16);
+    expect(programs.filter((label) => label.includes('matrices'))).toEqual([]);
+    for (const one of [denoiser, plain]) one.destroy();
+    device.destroy();
   });
 
   it('gives way to threads where a driver does not compile it', async () => {
