@@ -27,7 +27,10 @@ export const TABLE_BLOCKS = {
   outer: [0, OPENPBR_TABLE_OUTER],
   /** Energy that single scattering loses; seen from the thinner medium, over the cubic root of ε. */
   outerTotal: [outerTotal, OPENPBR_TABLE_OUTER_TOTAL],
-  /** The reflected part of single scattering; seen from the denser medium. */
+  /**
+   * The reflected part of single scattering; seen from the denser medium. The last column holds what goes through in the
+   * mean, by all scattering, over η^(2 - roughness).
+   */
   inner: [inner, OPENPBR_TABLE_INNER],
   /** Energy that single scattering loses; seen from the denser medium. */
   innerTotal: [innerTotal, OPENPBR_TABLE_INNER_TOTAL],
