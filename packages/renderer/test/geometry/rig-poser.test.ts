@@ -6,11 +6,10 @@ import { createRig, poseMesh, type Pose } from '@glanz/scene/pose';
 import { afterEach, expect, it } from 'vitest';
 import { packPose } from '../../src/geometry/pose/rig-data';
 import { RigPoser } from '../../src/geometry/pose/rig-poser';
-import { requestDevice } from '../../src/index';
-import { createGpu } from '../../src/node';
 import { GpuMemory } from '../../src/storage/buffers';
 import { readBuffer } from '../../src/storage/read-buffer';
 import { poseOf, rigOf } from '../rigs';
+import { losingDevice } from '../losing-device';
 
 afterEach(() => expectNoGpuErrors());
 
@@ -158,19 +157,7 @@ it('poses whose matrices single precision cannot hold are left to the CPU', () =
 it.each(['glanz pose bind', 'glanz pose cost read'])(
   'reports a device that is lost at "%s", and keeps no memory',
   async (label) => {
-    const { gpu } = await createGpu({ software: 'only' });
-    const own = await requestDevice({ gpu });
-    const losing = new Proxy(own, {
-      get: (target, name) => {
-        const value = Reflect.get(target, name) as unknown;
-        if (name === 'createBuffer')
-          return (descriptor: GPUBufferDescriptor) => {
-            if (descriptor.label === label) target.destroy();
-            return target.createBuffer(descriptor);
-          };
-        return typeof value === 'function' ? (value as () => unknown).bind(target) : value;
-      },
-    });
+    const losing = await losingDevice(label);
     const memory = new GpuMemory(losing);
     const rig = rigOf(8);
     const making = RigPoser.create({ device: losing, memory, minTriangles: 1 }, rig, buildBlas(rig.bind));

@@ -3,10 +3,10 @@ import type { Mesh, Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { prepareGeometry } from '../../src/geometry/geometry';
 import { buildsOnGpu, gpuBuilds, suitsGpu } from '../../src/geometry/hierarchy';
-import { PathTracer, requestDevice, type PathTracerOptions } from '../../src/index';
-import { createGpu } from '../../src/node';
+import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { GpuMemory } from '../../src/storage/buffers';
 import { addBox, addQuad, addSphere, camera, createScene, lambert } from '../scenes';
+import { losingDevice } from '../losing-device';
 
 let device: GPUDevice;
 beforeAll(async () => {
@@ -218,22 +218,10 @@ describe('hierarchies built on the GPU', () => {
   });
 
   it('report a device that is lost while they are built', async () => {
-    const { gpu } = await createGpu({ software: 'only' });
     // Each device compiles the builder's programs: at its first buffer and at the last copy, with --full at two between.
     const stops = ['glanz build positions', 'bvh primitives', 'bvh read', 'glanz read'];
     for (const stop of process.env['GLANZ_FULL'] ? stops : [stops[0]!, stops[3]!]) {
-      const own = await requestDevice({ gpu });
-      const losing = new Proxy(own, {
-        get: (target, name) => {
-          const value = Reflect.get(target, name) as unknown;
-          if (name === 'createBuffer')
-            return (descriptor: GPUBufferDescriptor) => {
-              if (descriptor.label === stop) target.destroy();
-              return target.createBuffer(descriptor);
-            };
-          return typeof value === 'function' ? (value as () => unknown).bind(target) : value;
-        },
-      });
+      const losing = await losingDevice(stop);
       const memory = new GpuMemory(losing);
       const making = prepareGeometry(stage(), { gpu: gpuBuilds(losing, memory, 'gpu') });
       await expect(making, stop).rejects.toMatchObject({ code: 'renderer/device-lost' });
