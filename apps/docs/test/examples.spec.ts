@@ -80,7 +80,10 @@ test('the viewer: it starts, emits events, is edited, looked at, pinned to, drop
   expect(rendered).toEqual([8, 6, 1]);
   await page.evaluate(() => window.examples.look(window.viewer));
   expect(await page.evaluate(() => window.viewer.orbit!.theta)).toBeCloseTo(Math.PI / 4, 6);
+  await expect.poll(() => page.evaluate(() => window.viewer.state)).not.toBe('done');
   await page.evaluate(() => void (window.viewer.autoRotate = 0));
+  // At rest, or the line of the next sample replaces the message.
+  await done(page);
 
   const transfer = await page.evaluateHandle(() => {
     const made = new DataTransfer();
