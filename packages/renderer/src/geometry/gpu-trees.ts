@@ -163,13 +163,17 @@ function onGpu(
     for (const buffer of Object.values(own)) memory.release(buffer);
   };
   const readPages = async (pages: PagedArray, offset: number, bytes: number) => {
-    const what = 'reading back from it';
     const usage = GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC;
-    const staging = await withErrorScopes(device, what, () => memory.buffer('read pages', bytes, usage));
-    try {
+    // Copied before this returns: an edit may write other nodes there while the GPU checks the calls.
+    const { result: staging, verified } = inErrorScopes(device, 'reading back from it', () => {
+      const buffer = memory.buffer('read pages', bytes, usage);
       const encoder = device.createCommandEncoder({ label: 'glanz read pages' });
-      pages.copyTo(encoder, staging, offset, bytes);
+      pages.copyTo(encoder, buffer, offset, bytes);
       device.queue.submit([encoder.finish()]);
+      return buffer;
+    });
+    try {
+      await verified;
       return await readBuffer(device, staging, bytes);
     } finally {
       memory.release(staging);

@@ -4,6 +4,10 @@ import { poseMesh } from '@glanz/scene/pose';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { prepareGeometry, shapeBytes } from '../../src/geometry/geometry';
+import { DeviceError } from '../../src/errors';
+import { buildOnGpu } from '../../src/geometry/gpu-trees';
+import { GpuMemory } from '../../src/storage/buffers';
+import { Pages } from '../../src/storage/paged/pages';
 import { readAov } from '../aovs';
 import { poseOf, rigOf } from '../rigs';
 import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
@@ -256,6 +260,34 @@ describe('arrays larger than a binding', () => {
     const edited = { ...scene, meshes: scene.meshes.map((mesh, i) => (i === 4 ? other.meshes[0]! : mesh)) };
     expect(await film(tracer)).toEqual(await fresh(device, edited, { bvhBuilder: 'cpu' }));
     tracer.destroy();
+  });
+
+  it('are read back as they were when that was asked for, whatever is written meanwhile', async () => {
+    const scene = balls();
+    const { device: small } = limited();
+    const memory = new GpuMemory(small);
+    const signal = new AbortController().signal;
+    const builds = { device: small, memory, minTriangles: 1 };
+    const mesh = scene.meshes[0] as Mesh;
+    const build = async () => {
+      const { trees } = await buildOnGpu(builds, [mesh], { signal, onProgress: () => undefined });
+      return trees[0]!.gpu!;
+    };
+    const { nodes: expected, nodeCount } = await (await build()).read();
+    const placed = await build();
+    const region = { firstNode: 1, nodes: nodeCount, firstTriangle: 0, triangles: 0, firstWord: 0, words: 0 };
+    const bytes = { nodes: 64 * (nodeCount + 1), triangles: 1 << 20, attributes: 1 << 20 };
+    const pages = new Pages(small, bytes, 16, DeviceError);
+    const arrays = {
+      nodes: pages.make(memory, 'nodes', bytes.nodes)!,
+      triangles: pages.make(memory, 'triangles', bytes.triangles)!,
+      attributes: pages.make(memory, 'attributes', bytes.attributes)!,
+    };
+    placed.place((name) => arrays[name], region);
+    const reading = placed.read();
+    arrays.nodes.write(new Uint8Array(64 * nodeCount), 64);
+    expect((await reading).nodes).toEqual(expected);
+    memory.destroy();
   });
 
   it('take poses that are computed on the GPU', async () => {
