@@ -149,13 +149,13 @@ function materials(): Plot {
     ['metal', 3.5],
     ['glass', 1.6],
     ['fuzz over diffuse', 3.2],
-    ['stretched metal, anisotropy 0.9', 23],
+    ['anisotropic metal, anisotropy 0.9', 23],
   ];
   return {
     question: 'How far from 1 is the directional albedo of a white surface, at worst?',
     better: 'lower',
     groups: others.map(([name, other]) => ({
-      label: name.replace('stretched', 'anisotropic'),
+      label: name,
       bars: [bar('@glanz/openpbr', error(name), '%', 'ours'), bar('three-gpu-pathtracer 0.0.26', other, '%', 'other')],
     })),
   };

@@ -39,15 +39,11 @@ const OTHERS = {
   'fuzz over diffuse': ['−3.2 %', '0.997 to 1.003'],
   'film over diffuse': ['tinted', 'up to 1.068'],
   'film over metal': ['tinted', '0.991 to 0.996'],
-  'stretched metal, anisotropy 0.9': ['−23 %', '0.994 to 1.029'],
-  'stretched glass, anisotropy 0.9': ['', '0.962 to 1.000, anisotropy 0.8'],
+  'anisotropic metal, anisotropy 0.9': ['−23 %', '0.994 to 1.029'],
+  'anisotropic glass, anisotropy 0.9': ['', '0.962 to 1.000, anisotropy 0.8'],
 };
 /** The name of a test as the page shows it. */
-const label = (name) =>
-  name
-    .replace('(ours by choice)', '(deliberate)')
-    .replace(/^stretched /, 'anisotropic ')
-    .replace(/^paper$/, 'thin-walled diffuse');
+const label = (name) => name.replace('(ours by choice)', '(deliberate)').replace(/^paper$/, 'thin-walled diffuse');
 const number = (value, digits = 4) => (value === undefined ? '' : value.toFixed(digits));
 const percent = (value) => `${(100 * value).toFixed(1)} %`;
 const table = (head, rows) =>

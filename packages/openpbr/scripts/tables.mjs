@@ -16,7 +16,7 @@
  *   with the power 0.75 0.0027.
  * - From inside, the critical angle has a column of its own, and columns crowd around it: 0.035 at worst, 0.01 mostly.
  *   What is tabulated there is the reflected part of single scattering, which has no dip of masking; bounces are added.
- * - Stretched mirrors, over roughness, anisotropy, cosine and azimuth. The round mirror of the same masking is within
+ * - Anisotropic mirrors, over roughness, anisotropy, cosine and azimuth. The round mirror of the same masking is within
  *   0.067; the rest is smooth, and tabulated. At 2500 places with anisotropies to 0.99: 8 roughnesses × 4 anisotropies
  *   × 6 slopes along the view × 17 angles leave 0.009 at worst, 0.0008 in the mean square. Over one by the slope
  *   instead, which few nodes do for: 0.005 and 0.0006. With angles that crowd towards the normal too, where a view
@@ -37,13 +37,13 @@ const LAYOUT = {
   outerTotal: 18,
   inner: 12,
   innerTotal: 20,
-  stretched: 12,
+  anisotropic: 12,
   conductor: 40,
   sheen: 24,
 };
 const STEP = 2048;
-/** Anisotropies of stretched mirrors: 1/6, 2/6, … 1. */
-const STRETCHED_FLATS = 6;
+/** Anisotropies of anisotropic mirrors: 1/6, 2/6, … 1. */
+const ANISOTROPIC_FLATS = 6;
 /** The conductor's losses are tiny where it is smooth. */
 const FINE_STEP = 65536;
 
@@ -251,11 +251,11 @@ function dielectric() {
     (angles - 1) / 2,
   );
   totals(innerTotal, (k, count) => -epsilonOf(k, count));
-  values.push(...stretched());
+  values.push(...anisotropic());
   return {
     width: angles + 1,
     height: roughnesses,
-    depth: outer + outerTotal + inner + innerTotal + LAYOUT.stretched,
+    depth: outer + outerTotal + inner + innerTotal + LAYOUT.anisotropic,
     values,
   };
 }
@@ -266,15 +266,15 @@ const slopes = (r, anisotropy) => {
   return [along, Math.max((1 - anisotropy) * along, 1e-3 * along)];
 };
 
-/** What stretched mirrors keep by single scattering, less what the round one with the same masking does. */
-function stretched() {
-  const flats = STRETCHED_FLATS;
+/** What anisotropic mirrors keep by single scattering, less what the round one with the same masking does. */
+function anisotropic() {
+  const flats = ANISOTROPIC_FLATS;
   const views = LAYOUT.roughnesses / flats;
   const columns = LAYOUT.angles;
   const mirror = interfaceAlbedo(80, 96);
   const roughnesses = Array.from(
-    { length: LAYOUT.stretched },
-    (_, j) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * j) / (LAYOUT.stretched - 1),
+    { length: LAYOUT.anisotropic },
+    (_, j) => MIN_ROUGHNESS + ((1 - MIN_ROUGHNESS) * j) / (LAYOUT.anisotropic - 1),
   );
   const grid = roughnesses.map((r) => {
     const cosines = Array.from({ length: columns }, (__, i) =>

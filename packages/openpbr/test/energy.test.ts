@@ -70,14 +70,14 @@ describe('white furnace: nothing is lost, nothing is made', () => {
     [0.05, 0.2, 0.4, 1],
   );
   white(
-    'stretched metal',
+    'anisotropic metal',
     { base_metalness: 1, specular_roughness_anisotropy: 0.5 },
     [0.99, 1.003],
     [0, 0.8, 1.57],
     [0.1, 0.3, 0.6, 1],
   );
   white(
-    'very stretched metal',
+    'very anisotropic metal',
     { base_metalness: 1, specular_roughness_anisotropy: 0.9 },
     [0.99, 1.003],
     [0, 0.8, 1.57],

@@ -49,7 +49,7 @@ function anyExtreme(next: () => number): OpenPbrParameters {
 }
 
 /**
- * Any material of all lobes without what the README names as less exact: stretched highlights, rough diffuse, indices
+ * Any material of all lobes without what the README names as less exact: anisotropic highlights, rough diffuse, indices
  * below 1.
  */
 function anyWhite(next: () => number): OpenPbrParameters {

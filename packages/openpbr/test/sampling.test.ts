@@ -10,10 +10,10 @@ const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
   ['rough dielectric over rough diffuse', { specular_roughness: 0.8, base_diffuse_roughness: 1 }],
   ['metal', { base_metalness: 1, base_color: [0.9, 0.6, 0.3], specular_roughness: 0.35 }],
   ['very rough metal', { base_metalness: 1, specular_roughness: 1 }],
-  ['stretched metal', { base_metalness: 1, specular_roughness: 0.5, specular_roughness_anisotropy: 0.7 }],
+  ['anisotropic metal', { base_metalness: 1, specular_roughness: 0.5, specular_roughness_anisotropy: 0.7 }],
   ['coat over diffuse', { specular_weight: 0, coat_weight: 1, coat_roughness: 0.4, coat_color: [0.9, 0.5, 0.2] }],
   [
-    'stretched half coat over metal',
+    'anisotropic half coat over metal',
     {
       base_metalness: 1,
       specular_roughness: 0.5,
@@ -26,7 +26,7 @@ const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
   ['hazy metal', { base_metalness: 1, specular_roughness: 0.3, specular_haze: 0.5, specular_haze_spread: 0.5 }],
   ['retroreflection over diffuse', { specular_roughness: 0.4, specular_retroreflectivity: 0.6 }],
   [
-    'haze and retroreflection of stretched half metal below a coat',
+    'haze and retroreflection of anisotropic half metal below a coat',
     {
       base_metalness: 0.5,
       specular_roughness: 0.4,

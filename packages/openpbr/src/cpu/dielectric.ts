@@ -2,7 +2,7 @@ import type { OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { energyBounce, energyAlbedo, energyTotalLost } from './energy';
 import { isSmooth, viewRoughness, type Slopes } from './ggx';
 import { insideEnergy } from './inside';
-import { stretchedEnergy } from './stretched';
+import { anisotropicEnergy } from './anisotropic';
 import { OPENPBR_INSIDE_NEAR } from '../tables/constants.wesl';
 
 /** What an interface does with the light towards a viewer; see the WGSL struct `OpenPbrDielectric`. */
@@ -43,7 +43,7 @@ export function interfaceEnergy(
   const kept = summed
     ? insideEnergy(eta, alpha, wo)
     : multipleScattering && alpha[0] > alpha[1]
-      ? stretchedEnergy(eta, alpha, wo)
+      ? anisotropicEnergy(eta, alpha, wo)
       : undefined;
   const bounce = energyBounce(epsilon, roughness);
   // Nothing is lost between the facets of a delta.
@@ -59,7 +59,7 @@ export function interfaceEnergy(
 
 /**
  * Directional albedo of an interface for light from `wi`, the same as {@link interfaceEnergy} has for a viewer there, so
- * that the lobes below it are reciprocal; for stretched highlights, that of the tables. Twin of `openpbr_interface_albedo`.
+ * that the lobes below it are reciprocal; for anisotropic highlights, that of the tables. Twin of `openpbr_interface_albedo`.
  */
 export function interfaceAlbedo(
   { epsilon, summed, roughness }: { readonly epsilon: number; readonly summed: boolean; readonly roughness: number },

@@ -1,7 +1,7 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { OPENPBR_MIN_ROUGHNESS, OPENPBR_STRETCHED_FLATS } from '../tables/constants.wesl';
+import { OPENPBR_MIN_ROUGHNESS, OPENPBR_ANISOTROPIC_FLATS } from '../tables/constants.wesl';
 import {
-  STRETCHED_VIEWS,
+  ANISOTROPIC_VIEWS,
   TABLE_ANGLES,
   TABLE_BLOCKS,
   TABLE_CONDUCTOR,
@@ -88,19 +88,19 @@ export function energyLostMean(roughness: number): number {
 }
 
 /**
- * What a stretched mirror keeps more than a round one of the same masking, and in the last column how much less of the
- * round one's mean it loses; twin of `openpbr_energy_stretched`.
+ * What an anisotropic mirror keeps more than a round one of the same masking, and in the last column how much less of the
+ * round one's mean it loses; twin of `openpbr_energy_anisotropic`.
  *
  * @param x The table's column.
  * @param along Where the slope along the view lies, as a coordinate.
  */
-function stretchedMore(alpha: Slopes, roughness: number, x: number, along: number): number {
-  const flat = (1 - alpha[1] / alpha[0]) * OPENPBR_STRETCHED_FLATS;
-  const block = Math.min(Math.floor(flat), OPENPBR_STRETCHED_FLATS - 1);
+function anisotropicMore(alpha: Slopes, roughness: number, x: number, along: number): number {
+  const flat = (1 - alpha[1] / alpha[0]) * OPENPBR_ANISOTROPIC_FLATS;
+  const block = Math.min(Math.floor(flat), OPENPBR_ANISOTROPIC_FLATS - 1);
   const z = texel(
     clamp((roughness - OPENPBR_MIN_ROUGHNESS) / (1 - OPENPBR_MIN_ROUGHNESS), 0, 1),
-    TABLE_BLOCKS.stretched[0],
-    TABLE_BLOCKS.stretched[1],
+    TABLE_BLOCKS.anisotropic[0],
+    TABLE_BLOCKS.anisotropic[1],
     TABLE_DEPTH,
   );
   const at = (k: number) =>
@@ -108,7 +108,7 @@ function stretchedMore(alpha: Slopes, roughness: number, x: number, along: numbe
       ? 0
       : tableLookup(OPENPBR_TABLES.dielectric, [
           x,
-          texel(along, k * STRETCHED_VIEWS, STRETCHED_VIEWS, TABLE_ROUGHNESSES),
+          texel(along, k * ANISOTROPIC_VIEWS, ANISOTROPIC_VIEWS, TABLE_ROUGHNESSES),
           z,
         ]);
   return at(block - 1) * (1 - flat + block) + at(block) * (flat - block);
@@ -130,14 +130,14 @@ export function conductorLoss(alpha: Slopes, roughness: number, w: OpenPbrVector
   const along = (alpha[1] * (alpha[0] - slope)) / (slope * (alpha[0] - alpha[1]));
   // Angles crowd towards the normal.
   const t = 1 - Math.max(1 - spread(Math.max(roughness, OPENPBR_MIN_ROUGHNESS), cosine), 0) ** 0.75;
-  return Math.max(lost - stretchedMore(alpha, roughness, angleAxis(t), along), 0);
+  return Math.max(lost - anisotropicMore(alpha, roughness, angleAxis(t), along), 0);
 }
 
 /** The cosine-weighted mean of {@link conductorLoss} over all directions; twin of `openpbr_conductor_loss_mean`. */
 export function conductorLossMean(alpha: Slopes, roughness: number): number {
   const lost = energyLostMean(roughness);
   return alpha[0] > alpha[1]
-    ? lost * (1 - stretchedMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0))
+    ? lost * (1 - anisotropicMore(alpha, roughness, (TABLE_ANGLES + 0.5) / (TABLE_ANGLES + 1), 0))
     : lost;
 }
 
@@ -193,17 +193,17 @@ export function energyAlbedoMean(epsilon: number, roughness: number): number {
 }
 
 /**
- * {@link energyAlbedoMean} of a stretched highlight, whose share at `viewRoughness` is a little more in the mean; from
- * inside it is what is given. Twin of `openpbr_energy_stretched_mean`.
+ * {@link energyAlbedoMean} of an anisotropic highlight, whose share at `viewRoughness` is a little more in the mean; from
+ * inside it is what is given. Twin of `openpbr_energy_anisotropic_mean`.
  *
  * @param reflected The mean share with a round highlight.
  */
-export function stretchedAlbedoMean(epsilon: number, [x, y]: Slopes, roughness: number, reflected: number): number {
+export function anisotropicAlbedoMean(epsilon: number, [x, y]: Slopes, roughness: number, reflected: number): number {
   if (epsilon <= 0) return reflected;
-  const stretched = (x * x - y * y) / (x * x + y * y);
+  const anisotropic = (x * x - y * y) / (x * x + y * y);
   return (
     reflected +
-    ((1 - reflected) * 0.03 * roughness ** 2 * (1.03 - roughness) * stretched ** 3 * epsilon) / (epsilon + 0.06)
+    ((1 - reflected) * 0.03 * roughness ** 2 * (1.03 - roughness) * anisotropic ** 3 * epsilon) / (epsilon + 0.06)
   );
 }
 

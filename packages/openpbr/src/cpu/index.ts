@@ -1,7 +1,7 @@
 export { albedoBsdf, emittedRadiance, evalBsdf, evalPdfBsdf, pdfBsdf, sampleBsdf, type BsdfSample } from './bsdf';
 export { prepareBsdf, type Bsdf, type BsdfOptions } from './prepare';
 export { coatDarkening, coatedBase, coatRoughening, coatTransmittance, type Coat, type CoatFrame } from './coat';
-export { stretchedEnergy } from './stretched';
+export { anisotropicEnergy } from './anisotropic';
 export { refract, refractGgx, refractHalf, type BsdfSide, type Transmission } from './transmission';
 export { subsurfaceAlbedo, subsurfaceMedium, type ThinSubsurface } from './subsurface';
 export { filmReflectance, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
@@ -32,7 +32,7 @@ export {
   conductorLossMean,
   energyAlbedo,
   energyAlbedoMean,
-  stretchedAlbedoMean,
+  anisotropicAlbedoMean,
   energyTotalLost,
   fresnelMean,
   tableLookup,

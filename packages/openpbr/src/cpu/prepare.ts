@@ -2,7 +2,7 @@ import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../paramete
 import { coatedBase, coatPass, coatThrough, prepareCoat, type Coat } from './coat';
 import { interfaceEnergy, isOverOpaque, isSummed } from './dielectric';
 import { diffuseEven, diffuseGain, diffuseGrazing } from './diffuse';
-import { energyAlbedoMean, conductorLoss, conductorLossMean, stretchedAlbedoMean } from './energy';
+import { energyAlbedoMean, conductorLoss, conductorLossMean, anisotropicAlbedoMean } from './energy';
 import { dielectricEpsilon, fresnelMetal, fresnelMetalMean } from './fresnel';
 import { filmReflectance, filmChange, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { prepareFuzz, type Fuzz } from './fuzz';
@@ -213,7 +213,7 @@ export function prepareBsdf(
   const facets = sum(specular) + sum(transmission.albedo);
   const all = facets + sum(spread) + down;
   const meanOf = (slopes: Slopes, r: number) =>
-    stretchedAlbedoMean(face.epsilon, slopes, r, energyAlbedoMean(face.epsilon, r));
+    anisotropicAlbedoMean(face.epsilon, slopes, r, energyAlbedoMean(face.epsilon, r));
   const first = meanOf(alpha, roughness);
   const reflected = isHazy ? mix(first, meanOf(haze.alpha, haze.roughness), haze.weight) : first;
   const grazing = diffuseGrazing(p.base_diffuse_roughness, roughness, reflected, face.epsilon);

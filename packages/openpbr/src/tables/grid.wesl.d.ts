@@ -6,7 +6,7 @@ export const OPENPBR_TABLE_OUTER: number;
 export const OPENPBR_TABLE_OUTER_TOTAL: number;
 export const OPENPBR_TABLE_INNER: number;
 export const OPENPBR_TABLE_INNER_TOTAL: number;
-export const OPENPBR_TABLE_STRETCHED: number;
+export const OPENPBR_TABLE_ANISOTROPIC: number;
 export const OPENPBR_TABLE_CONDUCTOR: number;
 export const OPENPBR_TABLE_SHEEN: number;
 

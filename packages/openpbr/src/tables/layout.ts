@@ -1,4 +1,4 @@
-import { OPENPBR_STRETCHED_FLATS } from './constants.wesl';
+import { OPENPBR_ANISOTROPIC_FLATS } from './constants.wesl';
 import {
   OPENPBR_TABLE_ANGLES,
   OPENPBR_TABLE_CONDUCTOR,
@@ -8,7 +8,7 @@ import {
   OPENPBR_TABLE_OUTER_TOTAL,
   OPENPBR_TABLE_ROUGHNESSES,
   OPENPBR_TABLE_SHEEN,
-  OPENPBR_TABLE_STRETCHED,
+  OPENPBR_TABLE_ANISOTROPIC,
 } from './grid.wesl';
 
 /** Where the blocks of the dielectric table begin along its depth, in slices. */
@@ -16,7 +16,7 @@ const outerTotal = OPENPBR_TABLE_OUTER;
 const inner = outerTotal + OPENPBR_TABLE_OUTER_TOTAL;
 const innerTotal = inner + OPENPBR_TABLE_INNER;
 
-const stretched = innerTotal + OPENPBR_TABLE_INNER_TOTAL;
+const anisotropic = innerTotal + OPENPBR_TABLE_INNER_TOTAL;
 
 /** The dielectric table's blocks: first slice and number of slices. Names as in scripts/tables.mjs. */
 export const TABLE_BLOCKS = {
@@ -35,15 +35,15 @@ export const TABLE_BLOCKS = {
   /** Energy that single scattering loses; seen from the denser medium. */
   innerTotal: [innerTotal, OPENPBR_TABLE_INNER_TOTAL],
   /**
-   * What stretched mirrors keep by single scattering, less what round ones of the same masking do; over the roughness.
+   * What anisotropic mirrors keep by single scattering, less what round ones of the same masking do; over the roughness.
    * Rows: slopes along the view, for each of the anisotropies; the last column holds by how much of the round one's the
    * mean loss is less.
    */
-  stretched: [stretched, OPENPBR_TABLE_STRETCHED],
+  anisotropic: [anisotropic, OPENPBR_TABLE_ANISOTROPIC],
 } as const;
 
 /** Depth of the dielectric table in slices. */
-export const TABLE_DEPTH = stretched + OPENPBR_TABLE_STRETCHED;
+export const TABLE_DEPTH = anisotropic + OPENPBR_TABLE_ANISOTROPIC;
 
 /**
  * Angle samples of the dielectric table; one more column holds the mean over all directions. In the blocks of totals
@@ -70,5 +70,5 @@ export const TABLE_BLOCKS_2D = {
 /** Height of the two-dimensional table in rows. */
 export const TABLE_HEIGHT_2D = OPENPBR_TABLE_CONDUCTOR + 3 * SHEEN_ROWS;
 
-/** Slopes along the view, of the block of stretched mirrors; one over the slope is linear. */
-export const STRETCHED_VIEWS = OPENPBR_TABLE_ROUGHNESSES / OPENPBR_STRETCHED_FLATS;
+/** Slopes along the view, of the block of anisotropic mirrors; one over the slope is linear. */
+export const ANISOTROPIC_VIEWS = OPENPBR_TABLE_ROUGHNESSES / OPENPBR_ANISOTROPIC_FLATS;

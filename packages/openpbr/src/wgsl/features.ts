@@ -131,7 +131,7 @@ export function requiredFeatures(
         all.some((p) => p.coat_weight > 0 && p.coat_ior < outer) ||
         clear.some((p) => isNear(p, outer)),
     );
-  const stretched =
+  const anisotropic =
     specular &&
     all.some((p) => p.specular_roughness_anisotropy > 0 || (p.coat_weight > 0 && p.coat_roughness_anisotropy > 0));
   const base = metal || dielectric;
@@ -147,7 +147,7 @@ export function requiredFeatures(
     OPENPBR_INTERFACE: dielectric || coat,
     OPENPBR_INNER: inner,
     OPENPBR_INNER_SUMS: inner && sums,
-    OPENPBR_INTERFACE_LOOP: dielectric && (transmission || coat) && (stretched || (inner && sums)),
+    OPENPBR_INTERFACE_LOOP: dielectric && (transmission || coat) && (anisotropic || (inner && sums)),
     OPENPBR_TRANSMISSION: transmission,
     OPENPBR_SUBSURFACE: below.length > 0,
     OPENPBR_THIN_SUBSURFACE: thinBelow,
@@ -160,7 +160,7 @@ export function requiredFeatures(
     OPENPBR_DIFFUSE: lambert,
     OPENPBR_COSINE: lambert || (base && multipleScattering),
     OPENPBR_DIFFUSE_ROUGHNESS: diffuse && solid.some((p) => p.base_diffuse_roughness > 0),
-    OPENPBR_ANISOTROPY: stretched,
+    OPENPBR_ANISOTROPY: anisotropic,
     OPENPBR_HAZE: haze,
     OPENPBR_RETROREFLECTION: retroreflection,
     OPENPBR_LOBES: haze || retroreflection,

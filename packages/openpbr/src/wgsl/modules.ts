@@ -61,7 +61,7 @@ export const openpbr: WgslModule = bsdf;
  * `openpbr_ggx_lobe` then gives `spike` twice, which is 1e30 for the direction that was sampled, and 0 for others. Just
  * above, a lobe blurs by 1e-4 radians, a tenth of a pixel of a usual image: nobody sees where one kind ends.
  *
- * The energy tables know round highlights only. For a stretched one `openpbr_view_roughness` is the round roughness
+ * The energy tables know round highlights only. For an anisotropic one `openpbr_view_roughness` is the round roughness
  * that reflects the same share of the light (the slope across the view counts the more, the lower the view), about, and
  * `openpbr_conductor_cosine` the view that has the same masking. They are exact for round highlights.
  */

@@ -76,7 +76,7 @@ export function hasRanges(materials: readonly Material[]): boolean {
   );
 }
 
-/** Whether some material turns the tangent that its highlight is stretched along. */
+/** Whether some material turns the tangent that an anisotropic highlight runs along. */
 export function turnsTangent(materials: readonly Material[]): boolean {
   return materials.some(
     ({ parameters, textures }) =>

@@ -4,9 +4,9 @@ import { afterEach, describe, expect, it } from 'vitest';
 import { interfaceAlbedo } from '../scripts/microfacet.mjs';
 import { evalBsdf, ggxAlpha, prepareBsdf, sampleBsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
-import { stretchedEnergy } from '../src/cpu/stretched';
+import { anisotropicEnergy } from '../src/cpu/anisotropic';
 import { requiredFeatures } from '../src/wgsl/index';
-import openpbrStretched from '../src/wgsl/stretched.wesl';
+import openpbrAnisotropic from '../src/wgsl/anisotropic.wesl';
 import { direction, whiteDielectric, whiteMetal } from './integrate';
 import { single, uniform, upperDirection } from './random';
 
@@ -29,13 +29,13 @@ function interfaces(count: number, seed: number) {
   });
 }
 
-describe('what interfaces with stretched highlights keep by single scattering', () => {
+describe('what interfaces with anisotropic highlights keep by single scattering', () => {
   it('is that of a quadrature of 90,000 facets within 0.003, 60 interfaces (seed 60)', () => {
     const exact = interfaceAlbedo(300, 300);
     for (const { eta, roughness, anisotropy, wo } of interfaces(60, 60)) {
       const alpha = ggxAlpha(roughness, anisotropy);
       const { reflect, transmit } = exact([...alpha], eta, wo[2], Math.atan2(wo[1], wo[0]));
-      const [reflected, through] = stretchedEnergy(eta, alpha, wo);
+      const [reflected, through] = anisotropicEnergy(eta, alpha, wo);
       const at = `index ${eta}, slopes ${alpha.join(' ')}, wo ${wo.join(' ')}`;
       expect(Math.abs(reflected + through - reflect - transmit), at).toBeLessThan(0.003);
       expect(Math.abs(reflected - reflect), at).toBeLessThan(0.003);
@@ -56,7 +56,7 @@ describe('what interfaces with stretched highlights keep by single scattering', 
           [0, 1, 1e-5],
           [0.6, 0, 0.8],
         ] as const) {
-          const [reflected, through] = stretchedEnergy(eta, ggxAlpha(roughness, anisotropy), wo);
+          const [reflected, through] = anisotropicEnergy(eta, ggxAlpha(roughness, anisotropy), wo);
           expect(
             reflected >= 0 && through >= 0 && reflected + through < 1.01,
             `${reflected} ${through} for index ${eta}, roughness ${roughness}, wo ${wo.join(' ')}`,
@@ -77,9 +77,9 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return 0.0; }
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= arrayLength(&results)) { return; }
   let a = surfaces[2u * id.x];
-  results[id.x] = openpbr_stretched(a.x, openpbr_alpha(a.y, a.z), surfaces[2u * id.x + 1u].xyz);
+  results[id.x] = openpbr_anisotropic(a.x, openpbr_alpha(a.y, a.z), surfaces[2u * id.x + 1u].xyz);
 }`,
-      [openpbrStretched],
+      [openpbrAnisotropic],
     );
     const flags = requiredFeatures([{ transmission_weight: 1, specular_roughness_anisotropy: 0.5 }]);
     const inputs = [
@@ -94,14 +94,14 @@ fn openpbr_table_conductor(coords: vec2f) -> f32 { return 0.0; }
     );
     list.forEach(({ eta, roughness, anisotropy, wo }, i) => {
       const at = `index ${eta}, roughness ${roughness}, anisotropy ${anisotropy}, wo ${wo.join(' ')}`;
-      stretchedEnergy(eta, ggxAlpha(roughness, anisotropy), wo).forEach((value, k) =>
+      anisotropicEnergy(eta, ggxAlpha(roughness, anisotropy), wo).forEach((value, k) =>
         expect(Math.abs((results[2 * i + k] as number) - value), at).toBeLessThan(1e-5),
       );
     });
   });
 });
 
-describe('stretched metal', () => {
+describe('anisotropic metal', () => {
   it('returns all light within 0.003 at every roughness, anisotropy and angle: 60 by 5 random views (seed 63)', () => {
     const next = uniform(63);
     for (const roughness of [0.03, 0.06, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1]) {
@@ -143,7 +143,7 @@ describe('stretched metal', () => {
   });
 });
 
-describe('stretched dielectrics', () => {
+describe('anisotropic dielectrics', () => {
   const surfaces = (seed: number, fixed: Partial<OpenPbrParameters>) => {
     const next = uniform(seed);
     return Array.from({ length: 60 }, () => {

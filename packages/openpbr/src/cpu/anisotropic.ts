@@ -1,9 +1,9 @@
 import type { OpenPbrVector } from '../parameters/index';
 import {
-  OPENPBR_STRETCHED_AROUND,
-  OPENPBR_STRETCHED_HEIGHTS,
-  OPENPBR_STRETCHED_MIRRORS,
-} from '../tables/stretched_facets.wesl';
+  OPENPBR_ANISOTROPIC_AROUND,
+  OPENPBR_ANISOTROPIC_HEIGHTS,
+  OPENPBR_ANISOTROPIC_MIRRORS,
+} from '../tables/anisotropic_facets.wesl';
 import { seenFacets } from './conic';
 import { fresnelDielectric } from './fresnel';
 import { ggxSample, type Slopes } from './ggx';
@@ -12,11 +12,11 @@ import { clamp, dot } from './vector';
 
 /**
  * Albedos of reflection and transmission by single scattering of a dielectric with an anisotropic highlight, seen from
- * `wo`; twin of `openpbr_stretched`, whose comment states its error.
+ * `wo`; twin of `openpbr_anisotropic`, whose comment states its error.
  *
  * @param eta Index of the far side over that of the viewer's.
  */
-export const stretchedEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): Kept =>
+export const anisotropicEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): Kept =>
   eta < 1 ? insideEnergy(eta, alpha, wo) : fromOutside(eta, alpha, wo);
 
 /**
@@ -29,16 +29,16 @@ function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const reflectance = (h: OpenPbrVector): number => fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
   let reflected = 0;
   sum(
-    OPENPBR_STRETCHED_MIRRORS,
+    OPENPBR_ANISOTROPIC_MIRRORS,
     upwards,
     upwards,
     (weight, h) => (reflected += weight * reflectance(h) * Math.max(facetSeen(eta, alpha, wo, h)[0], 0)),
   );
   const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
   let through = 0;
-  OPENPBR_STRETCHED_HEIGHTS.forEach(([height, weight], k) => {
-    for (let i = 0; i < OPENPBR_STRETCHED_AROUND; i++) {
-      const h = ggxSample(alpha, wo, [turn + (i + 0.382 * k) / OPENPBR_STRETCHED_AROUND, height]);
+  OPENPBR_ANISOTROPIC_HEIGHTS.forEach(([height, weight], k) => {
+    for (let i = 0; i < OPENPBR_ANISOTROPIC_AROUND; i++) {
+      const h = ggxSample(alpha, wo, [turn + (i + 0.382 * k) / OPENPBR_ANISOTROPIC_AROUND, height]);
       through += weight * (1 - reflectance(h)) * facetSeen(eta, alpha, wo, h)[1];
     }
   });
