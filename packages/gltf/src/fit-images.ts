@@ -1,6 +1,7 @@
-import type { Image, SceneWarning, Steps, Texture } from '@glanz/scene';
+import type { Image, SceneWarning, Texture } from '@glanz/scene';
 import {
   droppableBlocks,
+  inSlices,
   mebibytes,
   planTextureLevels,
   reduceImageSteps,
@@ -61,22 +62,6 @@ export async function inTurn<T>(of: FittedImages, bytes: number, run: () => Prom
 export const invalidBudget = (value: unknown): GltfError =>
   new GltfError('gltf/option', `The option imageBudgetMiB is ${String(value)}; it must be a number above 0.`);
 
-/** Milliseconds between yields to the event loop. */
-const SLICE_MS = 8;
-
-/** That of `@glanz/scene` would be loaded with the loader, if this file shared it. */
-async function inSlices<T>(steps: Steps<T>, signal: AbortSignal | undefined): Promise<T> {
-  let until = performance.now() + SLICE_MS;
-  for (;;) {
-    signal?.throwIfAborted();
-    const step = steps.next();
-    if (step.done) return step.value;
-    if (performance.now() < until) continue;
-    await new Promise((resolve) => setTimeout(resolve));
-    until = performance.now() + SLICE_MS;
-  }
-}
-
 function costOf({ image, width, height, level }: FittedImage): TextureCost {
   const { compressed } = image;
   return {
@@ -122,7 +107,7 @@ async function fit(of: FittedImages): Promise<void> {
     if (more <= 0) continue;
     const { image, space } = held;
     const steps = reduceImageSteps(named(image), more, space, image.compressed !== undefined);
-    const reduced = await inSlices(steps, signal);
+    const reduced = await inSlices(steps, { signal });
     // The name is not the image's, but the scene's.
     delete (reduced as Partial<Image>).name;
     held.image = reduced as DecodedImage;

@@ -1,4 +1,5 @@
 export { droppableBlocks, reduceImageSteps } from './reduce-image';
+export { inSlices, type SliceOptions, type Steps } from './slices';
 export {
   levelSize,
   mebibytes,
