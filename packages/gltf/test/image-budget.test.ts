@@ -146,7 +146,8 @@ describe('imageBudgetMiB', () => {
     let [now, max] = [0, 0];
     const counted: ImageDecoder = async () => {
       max = Math.max(max, ++now);
-      await new Promise((resolve) => setTimeout(resolve, 2));
+      // Long enough for all that may begin beside it, also on a busy machine.
+      await new Promise((resolve) => setTimeout(resolve, 50));
       now--;
       return { width: 16, height: 16, data: new Uint8Array(4 * 256) };
     };
