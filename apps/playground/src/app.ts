@@ -295,9 +295,13 @@ export class App {
     const { exposure, toneMap, samples, noise, layer } = state;
     this.#session.setView({ exposure, toneMap, samples, noise, layer }).catch((error: unknown) => this.#fail(error));
     if (this.#link?.model === opened.name) this.#link = undefined;
-    await yieldToEventLoop();
-    if (this.#opened?.request !== request) return;
+    const replaced = async () => {
+      await yieldToEventLoop();
+      return this.#opened?.request !== request;
+    };
+    if (await replaced()) return;
     if (!again) this.#selection.choose({ material: scene.instances[0]?.material ?? 0 });
+    if (await replaced()) return;
     const sample = request.kind === 'sample' ? request.name : undefined;
     this.#model.querySelector('option[data-file]')?.remove();
     if (!sample) this.#model.append(element('option', { value: '(file)', 'data-file': true }, title));
@@ -314,8 +318,7 @@ export class App {
       });
     }
     for (const listener of this.#modelListeners) {
-      await yieldToEventLoop();
-      if (this.#opened?.request !== request) return;
+      if (await replaced()) return;
       listener();
     }
     this.#canvas.dataset['scene'] = title;

@@ -27,7 +27,7 @@ export function* usedVertices({ positions, indices }: Mesh): Steps<UsedVertices>
     yield;
   }
   const boxes = new Float32Array(6 * (Math.ceil(vertices / RUN) + 1));
-  for (let at = 0; at < boxes.length; at += 6) boxes.fill(Infinity, at, at + 3).fill(-Infinity, at + 3, at + 6);
+  boxes.fill(Infinity, boxes.length - 6, boxes.length - 3).fill(-Infinity, boxes.length - 3);
   for (let from = 0; from < vertices; from += STEP) {
     enclose(boxes, used, positions, from, Math.min(vertices, from + STEP));
     yield;
@@ -41,7 +41,6 @@ function mark(used: Uint8Array, indices: Uint32Array, from: number, to: number):
 
 /** Bounds the runs of the vertices from `from`, a multiple of {@link RUN}, up to `to`. No lists in the inner loop. */
 function enclose(boxes: Float32Array, used: Uint8Array, positions: Float32Array, from: number, to: number): void {
-  const all = boxes.length - 6;
   for (let first = from; first < to; first += RUN) {
     const end = Math.min(to, first + RUN);
     let x0 = Infinity,
@@ -62,25 +61,22 @@ function enclose(boxes: Float32Array, used: Uint8Array, positions: Float32Array,
       if (z < z0) z0 = z;
       if (z > z1) z1 = z;
     }
-    widen(boxes, (6 * first) / RUN, x0, y0, z0, x1, y1, z1);
-    widen(boxes, all, x0, y0, z0, x1, y1, z1);
+    const at = (6 * first) / RUN;
+    boxes[at] = x0;
+    boxes[at + 1] = y0;
+    boxes[at + 2] = z0;
+    boxes[at + 3] = x1;
+    boxes[at + 4] = y1;
+    boxes[at + 5] = z1;
+    widen(boxes, at);
   }
 }
 
-function widen(
-  boxes: Float32Array,
-  at: number,
-  x0: number,
-  y0: number,
-  z0: number,
-  x1: number,
-  y1: number,
-  z1: number,
-): void {
-  boxes[at] = Math.min(boxes[at] as number, x0);
-  boxes[at + 1] = Math.min(boxes[at + 1] as number, y0);
-  boxes[at + 2] = Math.min(boxes[at + 2] as number, z0);
-  boxes[at + 3] = Math.max(boxes[at + 3] as number, x1);
-  boxes[at + 4] = Math.max(boxes[at + 4] as number, y1);
-  boxes[at + 5] = Math.max(boxes[at + 5] as number, z1);
+/** Widens the last box, that of all, by another. */
+function widen(boxes: Float32Array, by: number): void {
+  const all = boxes.length - 6;
+  for (let k = 0; k < 3; k++) {
+    boxes[all + k] = Math.min(boxes[all + k] as number, boxes[by + k] as number);
+    boxes[all + 3 + k] = Math.max(boxes[all + 3 + k] as number, boxes[by + 3 + k] as number);
+  }
 }

@@ -5,6 +5,7 @@ import { sceneToGlb } from '@glanz/models/gltf';
 import { timed, type Benchmark, type Figure } from '../benchmark';
 import { sphereFile } from '../main-thread/model';
 import { openPlayground } from '../main-thread/page';
+import { numberOption } from '../options';
 
 const FRAME = { value: 16, relation: '<=', source: 'one frame' } as const;
 
@@ -14,16 +15,17 @@ const FRAME = { value: 16, relation: '<=', source: 'one frame' } as const;
  */
 async function models(
   quick: boolean,
+  triangles: number,
 ): Promise<readonly { readonly what: string; readonly name: string; readonly bytes: Uint8Array }[]> {
-  const rings = quick ? 100 : 518;
+  const rings = quick ? 100 : Math.round(Math.sqrt(triangles / 4));
   const [smooth, flat] = [await sphereFile(rings, true), await sphereFile(rings, false)];
   const button = createPushButton({ level: quick ? 'low' : 'high' });
-  const triangles = button.meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0);
+  const parts = button.meshes.reduce((sum, { indices }) => sum + indices.length / 3, 0);
   return [
     { what: `${smooth.triangles} triangles with normals`, name: 'sphere-normals.glb', bytes: smooth.bytes },
     { what: `${flat.triangles} triangles without normals`, name: 'sphere.glb', bytes: flat.bytes },
     {
-      what: `push-button of ${triangles} triangles, with a glowing lens`,
+      what: `push-button of ${parts} triangles, with a glowing lens`,
       name: 'push-button.glb',
       bytes: await sceneToGlb(button),
     },
@@ -34,11 +36,14 @@ async function models(
 export const benchmark: Benchmark = {
   description: "the longest task of the playground's own thread while a million triangles are loaded",
   options: {
+    triangles: { type: 'string', help: 'triangles of the sphere, default 1073296' },
+    runs: { type: 'string', help: 'loads of each model, default 5' },
     profile: { type: 'string', help: '"yes": say which functions the long tasks are in (an unminified page)' },
     hardware: { type: 'string', help: '"yes": on the GPU of the machine' },
   },
   async run({ log, quick, values }) {
-    const runs = quick ? 1 : 5;
+    const triangles = numberOption(values, 'triangles', 4 * 518 ** 2);
+    const runs = numberOption(values, 'runs', quick ? 1 : 5);
     const folder = resolve('.cache/main-thread-models');
     mkdirSync(folder, { recursive: true });
     const figures: Figure[] = [],
@@ -46,7 +51,7 @@ export const benchmark: Benchmark = {
     const gpu = values['hardware'] === 'yes' ? 'hardware' : 'software';
     const page = await openPlayground(values['profile'] !== undefined, gpu);
     try {
-      for (const { what, name, bytes } of await models(quick)) {
+      for (const { what, name, bytes } of await models(quick, triangles)) {
         writeFileSync(join(folder, name), bytes);
         const seen = [];
         for (let i = 0; i < runs; i++) {
