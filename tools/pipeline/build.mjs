@@ -35,6 +35,7 @@ function fingerprint(p, dependencies) {
     join(root, 'tools/pipeline/wesl.mjs'),
     join(root, 'tools/pipeline/wesl-constants.mjs'),
     join(root, 'tools/pipeline/wesl-names.mjs'),
+    join(root, 'tools/pipeline/wesl-parse.mjs'),
     join(root, 'tools/pipeline/wesl-tokens.mjs'),
     join(root, 'tsconfig.base.json'),
     join(root, 'pnpm-lock.yaml'),
