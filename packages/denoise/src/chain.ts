@@ -1,5 +1,5 @@
 import { DenoiseError } from './error';
-import { bindImages } from './images';
+import { bindImages, type BoundImages } from './images';
 import type { Job } from './jobs';
 import type { Kernel } from './gpu';
 import { allocate, type PrepareOptions } from './memory';
@@ -30,6 +30,26 @@ export function makeStages(
     network,
     kernels: new NetworkKernels(device, network, input, storage, shared),
   }));
+}
+
+/**
+ * The images of each stage, checked: those that clean guides write into `guides`, the last takes what they have written.
+ *
+ * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/limit`, `denoise/option`.
+ */
+export function boundChain(
+  device: GPUDevice,
+  stages: readonly Stage[],
+  guides: readonly GPUBuffer[],
+  images: DenoiseImages,
+): BoundImages[] {
+  const cleaned: Partial<Record<CleanGuide, { buffer: GPUBuffer; pixelStride: 3 }>> = {};
+  return stages.map(({ input, network }, i) => {
+    const guide = guides[i];
+    if (guide) cleaned[input as CleanGuide] = { buffer: guide, pixelStride: 3 };
+    const taken = guide ? { ...images, output: { buffer: guide, pixelStride: 3 } } : { ...images, ...cleaned };
+    return bindImages(network, input, taken, device.limits);
+  });
 }
 
 /** All stages, ready for images of a size. */
@@ -99,13 +119,7 @@ export class Chain {
         'denoise/size',
         `Nothing is prepared for ${images.width} × ${images.height} pixels: await prepare() with this size before encode().`,
       );
-    const cleaned: Partial<Record<CleanGuide, { buffer: GPUBuffer; pixelStride: 3 }>> = {};
-    const bound = this.#stages.map(({ input, network }, i) => {
-      const guide = this.#guides[i];
-      if (guide) cleaned[input as CleanGuide] = { buffer: guide, pixelStride: 3 };
-      const taken = guide ? { ...images, output: { buffer: guide, pixelStride: 3 } } : { ...images, ...cleaned };
-      return bindImages(network, input, taken, this.#device.limits);
-    });
+    const bound = boundChain(this.#device, this.#stages, this.#guides, images);
     // Where all of them are right: nothing has been written before an error.
     return bound.flatMap((one, i) => this.#prepared[i]!.jobs(one));
   }

@@ -4,6 +4,7 @@ import type { DeviceMatrices } from './kernels/shapes';
 import { readNetwork, type Network } from './network';
 import type { DenoiserInput, DenoiserOptions } from './options';
 import type { PlanOptions } from './plan';
+import type { StartedWasm } from './wasm/wasm-chain';
 
 /** A network, and what it denoises. */
 export type NetworkOf = readonly [input: DenoiserInput, network: Network];
@@ -92,4 +93,15 @@ export async function matricesFor(
   // Few devices have them: others do not load this. Without it threads do the work.
   const module = await import('./kernels/choose-matrices').catch(() => undefined);
   return module?.matricesOf(device);
+}
+
+/** WebAssembly that computes the layers of a denoiser with these options; `undefined` where shaders do. */
+export async function wasmFor(
+  device: GPUDevice,
+  { webAssembly = isSoftware(device) }: Pick<DenoiserOptions, 'webAssembly'>,
+): Promise<StartedWasm | undefined> {
+  if (!webAssembly) return undefined;
+  // Few devices want it: others do not load this. Without it shaders do the work.
+  const chain = await import('./wasm/wasm-chain').catch(() => undefined);
+  return chain?.startWasm();
 }

@@ -1,5 +1,5 @@
 import { Chain, makeStages, type Stage } from './chain';
-import { checkOptions, matricesFor, readNetworks, shapesOf, type NetworkOf } from './configure';
+import { checkOptions, matricesFor, readNetworks, shapesOf, wasmFor, type NetworkOf } from './configure';
 import { DenoiseError } from './error';
 import { lossOf } from './gpu';
 import type { DeviceMatrices } from './kernels/shapes';
@@ -14,6 +14,7 @@ import type {
   DenoiserStorage,
 } from './options';
 import { Pace } from './pace';
+import type { StartedWasm, WasmChain } from './wasm/wasm-chain';
 
 /**
  * Denoises images in GPU buffers by a network of Open Image Denoise. One network; images of any size, one at a time,
@@ -30,6 +31,8 @@ export class Denoiser {
   readonly #options: DenoiserOptions;
   /** `undefined` where the device has none, or the driver does not compile their kernels. */
   #matrices: DeviceMatrices | undefined;
+  /** `undefined` where shaders compute the layers. */
+  readonly #wasm: StartedWasm | undefined;
   readonly #pace: Pace;
   /** Rejects when the device is lost. */
   readonly #lost: Promise<never>;
@@ -38,6 +41,7 @@ export class Denoiser {
   /** Precision between layers. */
   readonly storage: DenoiserStorage;
   #chain: Chain | undefined;
+  #wasmChain: WasmChain | undefined;
   #last: Promise<unknown> = Promise.resolve();
   #destroyed = false;
 
@@ -46,6 +50,7 @@ export class Denoiser {
     networks: readonly NetworkOf[],
     options: DenoiserOptions,
     matrices: DeviceMatrices | undefined,
+    wasm: StartedWasm | undefined,
   ) {
     this.#device = device;
     this.input = options.input ?? 'hdr';
@@ -55,6 +60,7 @@ export class Denoiser {
     this.#stages = makeStages(device, networks, this.storage);
     this.#options = options;
     this.#matrices = matrices;
+    this.#wasm = wasm;
     this.#lost = lossOf(device);
   }
 
@@ -71,8 +77,10 @@ export class Denoiser {
   ): Promise<Denoiser> {
     options.signal?.throwIfAborted();
     checkOptions(options);
-    const denoiser = new Denoiser(device, readNetworks(weights, options), options, await matricesFor(device, options));
-    await Promise.all(denoiser.#stages.map(({ kernels }) => kernels.prelude()));
+    const networks = readNetworks(weights, options);
+    const [matrices, wasm] = await Promise.all([matricesFor(device, options), wasmFor(device, options)]);
+    const denoiser = new Denoiser(device, networks, options, matrices, wasm);
+    await Promise.all(denoiser.#stages.map(({ kernels }) => kernels.prelude(wasm && 'f32')));
     options.signal?.throwIfAborted();
     return denoiser;
   }
@@ -82,25 +90,29 @@ export class Denoiser {
     return this.#stages.at(-1)!.network.channels;
   }
 
-  /** Bytes on the GPU: weights, and what the last size needs. */
+  /** Bytes on the GPU, and of WebAssembly's memory where that is used: weights, and what the last size needs. */
   get memoryBytes(): number {
-    return this.#stages.reduce((sum, { kernels }) => sum + kernels.bytes, this.#chain?.bytes ?? 0);
+    const chains = (this.#chain?.bytes ?? 0) + (this.#wasmChain?.bytes ?? 0);
+    return this.#stages.reduce((sum, { kernels }) => sum + kernels.bytes, chains);
   }
 
   /**
-   * Makes memory and shaders for images of a size, so that the first one does not wait for them.
+   * Makes memory and shaders for images of a size, so that the first one does not wait for them. Where WebAssembly
+   * computes the layers, the shaders are compiled too, for {@link encode}: {@link denoise} alone takes less there.
    *
    * @throws {DenoiseError} `denoise/size`, `denoise/memory`, `denoise/limit`, `denoise/pipeline`, `denoise/destroyed`.
    */
   prepare(width: number, height: number): Promise<void> {
     return this.#inTurn(async () => {
       checkSize(width, height);
+      await this.#prepareWasm(width, height);
       await this.#prepare(width, height);
     });
   }
 
   /**
-   * Denoises an image, in submissions of about `maxSubmitMs` each. Resolves when the GPU is done.
+   * Denoises an image, in submissions of about `maxSubmitMs` each, or in WebAssembly in slices of about 12 ms. Resolves
+   * when the GPU is done.
    *
    * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/option`, `denoise/memory`, `denoise/limit`,
    * `denoise/pipeline`, `denoise/device`, `denoise/destroyed`; the signal's reason where it aborts.
@@ -108,8 +120,13 @@ export class Denoiser {
   denoise(images: DenoiseImages, options: DenoiseOptions = {}): Promise<DenoiseResult> {
     return this.#inTurn(async () => {
       options.signal?.throwIfAborted();
-      checkSize(images.width, images.height);
-      return this.#run(await this.#prepare(images.width, images.height), images, options);
+      const { width, height } = images;
+      checkSize(width, height);
+      const wasm = await this.#prepareWasm(width, height);
+      if (!wasm) return this.#run(await this.#prepare(width, height), images, options);
+      const { signal, onProgress } = options;
+      const run = { signal, onProgress, expectAlive: () => this.#expectAlive(), lost: this.#lost };
+      return { tiles: wasm.tiles, submissions: await wasm.run(images, run), kernels: 'webAssembly' };
     });
   }
 
@@ -131,11 +148,12 @@ export class Denoiser {
     pass.end();
   }
 
-  /** Frees everything on the GPU; work that is under way ends with `denoise/destroyed`. */
+  /** Frees everything; work that is under way ends with `denoise/destroyed`. */
   destroy(): void {
     this.#destroyed = true;
     this.#chain?.destroy();
-    this.#chain = undefined;
+    this.#wasmChain?.destroy();
+    this.#chain = this.#wasmChain = undefined;
     for (const { kernels } of this.#stages) kernels.destroy();
   }
 
@@ -162,6 +180,18 @@ export class Denoiser {
     this.#expectAlive();
     this.#chain = chain;
     return chain;
+  }
+
+  /** @returns `undefined` where shaders compute the layers. */
+  async #prepareWasm(width: number, height: number): Promise<WasmChain | undefined> {
+    if (!this.#wasm || (this.#wasmChain?.width === width && this.#wasmChain.height === height)) return this.#wasmChain;
+    // Shaders of another size are not of use to encode() any more.
+    for (const chain of [this.#wasmChain, this.#chain]) chain?.destroy();
+    this.#wasmChain = this.#chain = undefined;
+    const chain = await this.#wasm(this.#device, this.#stages, { width, height, maxMemory: this.#maxMemory });
+    if (this.#destroyed) chain.destroy();
+    this.#expectAlive();
+    return (this.#wasmChain = chain);
   }
 
   async #createChain(width: number, height: number): Promise<Chain> {
@@ -214,6 +244,6 @@ export class Denoiser {
     }
     await before;
     this.#expectAlive();
-    return { tiles: chain.tiles, submissions };
+    return { tiles: chain.tiles, submissions, kernels: 'shaders' };
   }
 }

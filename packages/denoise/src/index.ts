@@ -3,6 +3,7 @@ export { DenoiseError } from './error';
 export { parseTza, type TzaTensor } from './tza';
 export type {
   DenoiseImages,
+  DenoiseKernels,
   DenoiseOptions,
   DenoiseResult,
   DenoiserInput,

@@ -19,11 +19,12 @@ export interface Prelude {
 export class NetworkKernels {
   readonly #device: GPUDevice;
   readonly #network: Network;
-  readonly #flags: Readonly<Record<string, boolean>>;
+  /** Gates of the shaders, by what the network takes and returns, and by the storage. */
+  readonly flags: Readonly<Record<string, boolean>>;
   readonly #input: DenoiserInput;
   readonly #convolutions: Map<string, Promise<Kernel>>;
   readonly #weights = new Map<string, { readonly buffer: GPUBuffer; readonly packed: PackedWeights }>();
-  #prelude: Promise<Prelude> | undefined;
+  readonly #preludes = new Map<DenoiserStorage | undefined, Promise<Prelude>>();
 
   /** @param convolutions Shaders that networks with the same storage share. */
   constructor(
@@ -37,7 +38,7 @@ export class NetworkKernels {
     this.#network = network;
     this.#input = input;
     this.#convolutions = convolutions;
-    this.#flags = {
+    this.flags = {
       DENOISE_HALF: storage === 'f16',
       DENOISE_F16: storage === 'f16' && device.features.has('shader-f16'),
       DENOISE_HDR: input === 'hdr',
@@ -53,14 +54,22 @@ export class NetworkKernels {
     return [...this.#weights.values()].reduce((sum, { buffer }) => sum + buffer.size, 0);
   }
 
-  /** @throws {DenoiseError} `denoise/pipeline`. */
-  prelude(): Promise<Prelude> {
-    this.#prelude ??= this.#compilePrelude();
-    this.#prelude.catch(() => (this.#prelude = undefined));
-    return this.#prelude;
+  /**
+   * @param storage `f32` where it encodes in single precision whatever the layers' storage is.
+   * @throws {DenoiseError} `denoise/pipeline`.
+   */
+  prelude(storage?: 'f32'): Promise<Prelude> {
+    let prelude = this.#preludes.get(storage);
+    if (!prelude) {
+      const single = storage && { DENOISE_HALF: false, DENOISE_F16: false };
+      prelude = this.#compilePrelude({ ...this.flags, ...single });
+      this.#preludes.set(storage, prelude);
+      prelude.catch(() => this.#preludes.delete(storage));
+    }
+    return prelude;
   }
 
-  async #compilePrelude(): Promise<Prelude> {
+  async #compilePrelude(flags: Readonly<Record<string, boolean>>): Promise<Prelude> {
     const bindings: Record<number, BindingKind> = {
       0: 'uniform',
       1: 'dynamic',
@@ -72,11 +81,11 @@ export class NetworkKernels {
     if (this.#network.channels >= 6) bindings[3] = 'read';
     if (this.#network.channels >= 9) bindings[4] = 'read';
     const compile = (label: string, ...rest: readonly [Record<number, BindingKind>, string]) =>
-      compileKernel(this.#device, label, exposure, this.#flags, ...rest);
+      compileKernel(this.#device, label, exposure, flags, ...rest);
     const [blocks, scale, encoding] = await Promise.all([
       compile('denoise exposure', { 2: 'write', 6: 'dynamic', 7: 'read' }, 'measure_block'),
       compile('denoise scale', { 2: 'write', 5: 'write', 6: 'dynamic' }, 'find_scale'),
-      compileKernel(this.#device, 'denoise encode', encode, this.#flags, bindings),
+      compileKernel(this.#device, 'denoise encode', encode, flags, bindings),
     ]);
     return { exposure: blocks, scale, encode: encoding };
   }
@@ -97,7 +106,7 @@ export class NetworkKernels {
       const module = hasMatrices(shape)
         ? shape.code.convolution({ shape, pool: layer.pool })
         : convolutionModule({ shape, up, directChannels: layer.directChannels, pool: layer.pool, last });
-      kernel = compileKernel(this.#device, `denoise ${key}`, module, this.#flags, bindings);
+      kernel = compileKernel(this.#device, `denoise ${key}`, module, this.flags, bindings);
       this.#convolutions.set(key, kernel);
       // A failure is not kept: the next call tries again.
       kernel.catch(() => this.#convolutions.delete(key));

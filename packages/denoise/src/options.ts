@@ -44,6 +44,14 @@ export interface DenoiserOptions {
    * `f32`, and on other devices. Default true.
    */
   readonly subgroupMatrices?: boolean;
+  /**
+   * Whether the CPU computes the layers, in WebAssembly, on the calling thread in slices of about 12 ms; the GPU still
+   * encodes and decodes. Values between layers are in single precision, whatever `storage` says. Default: on adapters
+   * that are software (SwiftShader, lavapipe, WARP), where it takes a tenth of the time or less. A page with a content
+   * security policy allows it with `'wasm-unsafe-eval'` in `script-src`; where it is forbidden, or the browser has no
+   * SIMD, shaders compute as elsewhere, and {@link DenoiseResult.kernels} says so.
+   */
+  readonly webAssembly?: boolean;
   /** Milliseconds that one submission should take at most, so that a page stays responsive. Default 8. */
   readonly maxSubmitMs?: number;
   /** Ends the creation with the signal's reason. */
@@ -68,11 +76,17 @@ export interface LayerSize {
   readonly directChannels: number;
 }
 
+/** What computes the layers of a network: the GPU by `shaders`, or the CPU in `webAssembly`. */
+export type DenoiseKernels = 'shaders' | 'webAssembly';
+
 /** What {@link Denoiser.denoise} did. */
 export interface DenoiseResult {
   /** Tiles that the image was cut into: 1 where there is memory for the whole. */
   readonly tiles: number;
+  /** Submissions to the GPU. */
   readonly submissions: number;
+  /** What computed the layers: the GPU by shaders, or the CPU in WebAssembly, see {@link DenoiserOptions.webAssembly}. */
+  readonly kernels: DenoiseKernels;
 }
 
 /**
@@ -119,8 +133,8 @@ export interface DenoiseImages {
 
 /** Options for {@link Denoiser.denoise}. */
 export interface DenoiseOptions {
-  /** Ends the work between two submissions; the promise rejects with the signal's reason, and the output is undefined. */
+  /** Ends the work between two submissions, or slices of a layer in WebAssembly; the promise rejects with the signal's reason, and the output is undefined. */
   readonly signal?: AbortSignal;
-  /** Called after each submission with the part of the work that is done, 0 to 1. */
+  /** Called after each submission or slice with the part of the work that is done, 0 to 1. */
   readonly onProgress?: (done: number) => void;
 }

@@ -73,7 +73,7 @@ export interface PlanOptions {
 }
 
 /** Gives tensors buffers; a buffer is free again when the last layer that reads its tensor is done. */
-class Slots {
+export class Slots {
   readonly bytes: number[] = [];
   readonly #free = new Set<number>();
 

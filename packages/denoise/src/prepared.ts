@@ -6,11 +6,9 @@ import type { TiledPlan } from './memory';
 import type { NetworkKernels, Prelude } from './network-kernels';
 import { pauses } from './pace';
 import { ENCODE_ROWS, type Plan, type TensorWindow } from './plan';
+import { ENCODE_COST, blockBytes, exposureJobs, tileUniform } from './prelude-jobs';
 import { readyLayer, type ReadyLayer } from './ready-layer';
 import type { Tiling } from './tiles';
-
-/** Multiply-adds that take as long as encoding a pixel, roughly. */
-const ENCODE_COST = 200;
 
 /** Values as uniforms of 256 bytes each, for dynamic offsets. */
 function rowNumbers(count: number): ArrayBuffer {
@@ -58,7 +56,7 @@ export class Prepared {
     this.#encodeBases = own('denoise encode', plan.encode.length * ALIGNMENT, UNIFORM | COPY_DST);
     for (const [i, { result }] of plan.encode.entries())
       device.queue.writeBuffer(this.#encodeBases, i * ALIGNMENT, Uint32Array.of(result.base, 0, 0, 0));
-    this.#blocks = own('denoise blocks', Math.ceil(size.width / 16) * Math.ceil(size.height / 16) * 8, STORAGE);
+    this.#blocks = own('denoise blocks', blockBytes(size.width, size.height), STORAGE);
     this.#scale = own('denoise scale', 16, STORAGE | COPY_DST);
   }
 
@@ -104,19 +102,7 @@ export class Prepared {
   #write(images: BoundImages): void {
     const data = new Uint8Array(this.tiling.tiles.length * ALIGNMENT);
     for (const [i, tile] of this.tiling.tiles.entries()) {
-      const bytes = tileStruct.allocate();
-      tileStruct.write(bytes, 0, {
-        image_size: [images.width, images.height],
-        origin: [tile.x, tile.y],
-        size: [this.plan.width, this.plan.height],
-        inner_from: [tile.innerX[0], tile.innerY[0]],
-        inner_to: [tile.innerX[1], tile.innerY[1]],
-        quads: this.plan.input.quads,
-        main_image: images.main.layout,
-        albedo_image: images.albedo?.layout ?? [0, 0, 0, 0],
-        normal_image: images.normal?.layout ?? [0, 0, 0, 0],
-        output_image: images.output.layout,
-      });
+      const bytes = tileUniform(images, tile, [this.plan.width, this.plan.height], this.plan.input.quads);
       data.set(new Uint8Array(bytes), i * ALIGNMENT);
     }
     this.#device.queue.writeBuffer(this.#tiles, 0, data);
@@ -125,36 +111,13 @@ export class Prepared {
 
   /** The dispatches that denoise these images. Writes uniforms: one image at a time. */
   jobs(images: BoundImages): Job[] {
-    const { exposure, scale, encode } = this.#prelude;
+    const { encode } = this.#prelude;
     this.#write(images);
     const device = this.#device;
     const tile = { buffer: this.#tiles, offset: 0, size: tileStruct.size };
     const scaleBuffer = { buffer: this.#scale, offset: 0, size: 16 };
-    const jobs: Job[] = [];
-    if (images.scale === undefined) {
-      const blocks = { buffer: this.#blocks, offset: 0, size: this.#blocks.size };
-      const once = { fromRow: 0, toRow: 1, z: 1, offsets: () => [0] };
-      jobs.push(
-        {
-          ...once,
-          name: 'exposure',
-          pipeline: exposure.pipeline,
-          group: bindGroup(device, exposure, { 2: blocks, 6: tile, 7: images.main.window }),
-          x: Math.ceil(images.width / 16),
-          yOfRow: Math.ceil(images.height / 16),
-          costOfRow: images.width * images.height * ENCODE_COST,
-        },
-        {
-          ...once,
-          name: 'scale',
-          pipeline: scale.pipeline,
-          group: bindGroup(device, scale, { 2: blocks, 5: scaleBuffer, 6: tile }),
-          x: 1,
-          yOfRow: 1,
-          costOfRow: images.width * images.height,
-        },
-      );
-    }
+    const blocks = { buffer: this.#blocks, offset: 0, size: this.#blocks.size };
+    const jobs = exposureJobs(device, this.#prelude, images, { blocks, tile, scale: scaleBuffer });
     const shared = { 6: tile, 7: images.main.window, 8: scaleBuffer };
     const encodings = this.plan.encode.map(({ fromRow, toRow, result }, i) => ({
       fromRow,

@@ -9,6 +9,8 @@ beforeAll(async () => void (device = await testDevice({ driver: 'swiftshader' })
 afterEach(() => expectNoGpuErrors());
 
 const weights = randomNetwork(9);
+/** On this software GPU WebAssembly would compute, which `wasm.test.ts` tests. */
+const SHADERS = { webAssembly: false };
 
 /** Images in buffers of the test device, and the memory to read the result from. */
 function bind(width: number, height: number) {
@@ -125,10 +127,10 @@ describe('images larger than bindings and memory', () => {
 
   it('are refused where not even a tile fits', async () => {
     const { images: bound } = bind(420, 210);
-    const little = await Denoiser.create(device, weights, { maxMemory: 1000 });
+    const little = await Denoiser.create(device, weights, { ...SHADERS, maxMemory: 1000 });
     expect(await codeOf(little.denoise(bound))).toBe('denoise/memory');
     little.destroy();
-    const narrow = await Denoiser.create(device, weights);
+    const narrow = await Denoiser.create(device, weights, SHADERS);
     expect(await withLimits({ maxStorageBufferBindingSize: 1000 }, () => codeOf(narrow.denoise(bound)))).toBe(
       'denoise/limit',
     );
@@ -164,11 +166,11 @@ describe('ways to share a layer among threads', () => {
 describe('submissions', () => {
   it('are many where little time is allowed, and say how far they are', async () => {
     const { images, result } = bind(160, 96);
-    const patient = await Denoiser.create(device, weights, { maxSubmitMs: Infinity });
+    const patient = await Denoiser.create(device, weights, { ...SHADERS, maxSubmitMs: Infinity });
     expect((await patient.denoise(images)).submissions).toBe(1);
     const expected = await result();
     patient.destroy();
-    const paced = await Denoiser.create(device, weights, { maxSubmitMs: 0.001 });
+    const paced = await Denoiser.create(device, weights, { ...SHADERS, maxSubmitMs: 0.001 });
     const progress: number[] = [];
     // The first one is begun with a guess at the speed.
     for (let i = 0; i < 2; i++) await paced.denoise(images, { onProgress: (done) => progress.push(done) });
@@ -181,7 +183,7 @@ describe('submissions', () => {
 
   it('end at an abort; the next image is right', async () => {
     const { images, result } = bind(160, 96);
-    const denoiser = await Denoiser.create(device, weights, { maxSubmitMs: 0.001 });
+    const denoiser = await Denoiser.create(device, weights, { ...SHADERS, maxSubmitMs: 0.001 });
     await denoiser.denoise(images);
     const expected = await result();
     const reason = new Error('the camera moved');
@@ -204,7 +206,7 @@ describe('submissions', () => {
   it('of two calls come one after the other', async () => {
     const a = bind(64, 48);
     const b = bind(48, 80);
-    const denoiser = await Denoiser.create(device, weights);
+    const denoiser = await Denoiser.create(device, weights, SHADERS);
     await Promise.all([denoiser.denoise(a.images), denoiser.denoise(b.images)]);
     const [first, second] = [await a.result(), await b.result()];
     await denoiser.denoise(a.images);
@@ -218,7 +220,7 @@ describe('submissions', () => {
 describe('encode()', () => {
   it('records the same work into an encoder', async () => {
     const { images, result } = bind(50, 40);
-    const denoiser = await Denoiser.create(device, weights);
+    const denoiser = await Denoiser.create(device, weights, SHADERS);
     await denoiser.denoise(images);
     const expected = await result();
     const other = { ...images, output: outputBuffer(device, 50 * 40) };
@@ -231,7 +233,7 @@ describe('encode()', () => {
 
   it('wants a size that is prepared', async () => {
     const { images } = bind(50, 40);
-    const denoiser = await Denoiser.create(device, weights);
+    const denoiser = await Denoiser.create(device, weights, SHADERS);
     const encoder = device.createCommandEncoder();
     const size = expect.objectContaining({ code: 'denoise/size' });
     expect(() => denoiser.encode(encoder, images)).toThrow(size);
@@ -241,11 +243,11 @@ describe('encode()', () => {
   });
 });
 
-describe('images in buffers', () => {
+describe.each([false, true])('images in buffers, with WebAssembly: %s', (webAssembly) => {
   it('may have offsets and strides, and keep what is not theirs', async () => {
     const [width, height] = [21, 18];
     const plain = bind(width, height);
-    const denoiser = await Denoiser.create(device, weights);
+    const denoiser = await Denoiser.create(device, weights, { webAssembly });
     await denoiser.denoise(plain.images);
     const expected = await plain.result();
     // RGBA: alpha is the colour's.
@@ -281,7 +283,7 @@ describe('images in buffers', () => {
   it('may lie between each other in one buffer', async () => {
     const [width, height] = [21, 18];
     const { images, result } = bind(width, height);
-    const denoiser = await Denoiser.create(device, weights);
+    const denoiser = await Denoiser.create(device, weights, { webAssembly });
     await denoiser.denoise(images);
     const expected = (await result()).filter((_, i) => i % 4 < 3);
     const { color, albedo, normal } = randomImages(width, height);
@@ -307,7 +309,7 @@ describe('images in buffers', () => {
 
   it('are checked', async () => {
     const { images } = bind(24, 24);
-    const denoiser = await Denoiser.create(device, weights);
+    const denoiser = await Denoiser.create(device, weights, { webAssembly });
     const codes = (change: Record<string, unknown>) =>
       codeOf(denoiser.denoise({ ...images, ...change } as unknown as DenoiseImages));
     const { color, albedo } = images;
@@ -361,10 +363,18 @@ describe('create()', () => {
   });
 });
 
-describe('the end', () => {
+describe.each([false, true])('the end, with WebAssembly: %s', (webAssembly) => {
   it('frees everything', async () => {
     const create = device.createBuffer;
     const alive = new Set<GPUBuffer>();
+    const memories: WebAssembly.Memory[] = [];
+    const { Memory } = WebAssembly;
+    WebAssembly.Memory = class extends Memory {
+      constructor(descriptor: WebAssembly.MemoryDescriptor) {
+        super(descriptor);
+        memories.push(this);
+      }
+    };
     Object.assign(device, {
       createBuffer: (descriptor: GPUBufferDescriptor) => {
         const buffer = create.call(device, descriptor);
@@ -375,24 +385,28 @@ describe('the end', () => {
     });
     try {
       const prefilter = { albedo: randomNetwork(3), normal: randomNetwork(3) };
-      const denoiser = await Denoiser.create(device, weights, { prefilter });
+      const denoiser = await Denoiser.create(device, weights, { webAssembly, prefilter });
       await denoiser.prepare(100, 80);
-      const large = [...alive].reduce((sum, { size }) => sum + size, 0);
+      // Of WebAssembly's memory no more than the last is kept.
+      const bytes = () => [...alive].reduce((sum, { size }) => sum + size, memories.at(-1)?.buffer.byteLength ?? 0);
+      const large = bytes();
       expect(denoiser.memoryBytes).toBe(large);
       await denoiser.prepare(40, 32);
-      expect(denoiser.memoryBytes).toBe([...alive].reduce((sum, { size }) => sum + size, 0));
+      expect(denoiser.memoryBytes).toBe(bytes());
       expect(denoiser.memoryBytes).toBeLessThan(large);
+      expect(memories).toHaveLength(webAssembly ? 2 : 0);
       denoiser.destroy();
       expect(alive.size).toBe(0);
       expect(denoiser.memoryBytes).toBe(0);
     } finally {
+      WebAssembly.Memory = Memory;
       delete (device as { createBuffer?: unknown }).createBuffer;
     }
   });
 
   it('ends what is under way', async () => {
     const { images } = bind(96, 96);
-    const denoiser = await Denoiser.create(device, weights, { maxSubmitMs: 0.001 });
+    const denoiser = await Denoiser.create(device, weights, { webAssembly, maxSubmitMs: 0.001 });
     await denoiser.denoise(images);
     const running = denoiser.denoise(images, { onProgress: () => denoiser.destroy() });
     expect(await codeOf(running)).toBe('denoise/destroyed');
@@ -416,7 +430,7 @@ describe('the end', () => {
       width: 96,
       height: 96,
     };
-    const denoiser = await Denoiser.create(lost, weights, { maxSubmitMs: 0.001 });
+    const denoiser = await Denoiser.create(lost, weights, { webAssembly, maxSubmitMs: 0.001 });
     await denoiser.denoise(images);
     const running = denoiser.denoise(images, { onProgress: () => lost.destroy() });
     expect(await codeOf(running)).toBe('denoise/device');

@@ -42,7 +42,7 @@ export async function download(device: GPUDevice, buffer: GPUBuffer): Promise<Fl
 /** RGB out of RGBA. */
 export const rgbOf = (rgba: Float32Array): Float32Array => rgba.filter((_, i) => i % 4 < 3);
 
-/** Denoises images in memory on the GPU: RGB, and the RGBA that was written. */
+/** Denoises images in memory on the GPU, by shaders unless options say otherwise: RGB, and the RGBA that was written. */
 export async function denoiseOnGpu(
   weights: Uint8Array,
   images: Images,
@@ -51,7 +51,7 @@ export async function denoiseOnGpu(
 ) {
   const gpu = device ?? (await testDevice());
   const { width, height, scale } = images;
-  const denoiser = await Denoiser.create(gpu, weights, { maxSubmitMs: 1000, ...options });
+  const denoiser = await Denoiser.create(gpu, weights, { maxSubmitMs: 1000, webAssembly: false, ...options });
   const output = outputBuffer(gpu, width * height);
   const inputs = Object.fromEntries(
     (['color', 'albedo', 'normal'] as const).flatMap((name) =>

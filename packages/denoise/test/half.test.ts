@@ -37,7 +37,7 @@ describe('half precision as a type of its own', () => {
       texts.push(descriptor.code);
       return createShaderModule(descriptor);
     };
-    const denoiser = await Denoiser.create(device, randomNetwork(9));
+    const denoiser = await Denoiser.create(device, randomNetwork(9), { webAssembly: false });
     await denoiser.prepare(64, 48);
     denoiser.destroy();
     expect(texts.filter((text) => text.includes('enable f16;')).length).toBeGreaterThan(5);

@@ -278,12 +278,12 @@ describe('convolution by subgroup matrices', () => {
         return typeof value === 'function' ? (value as (...args: unknown[]) => unknown).bind(target) : value;
       },
     });
-    const denoiser = await Denoiser.create(watched, randomNetwork(3));
+    const denoiser = await Denoiser.create(watched, randomNetwork(3), { webAssembly: false });
     await denoiser.prepare(16, 16);
     // Of the layers two have 16 channels or more, and both an upsampled source.
     expect(programs.filter((label) => /rows of matrices .*, upsampled/.test(label))).not.toEqual([]);
     expect(programs.filter((label) => /threads of .*, last/.test(label))).toHaveLength(1);
-    const plain = await Denoiser.create(watched, randomNetwork(3), { subgroupMatrices: false });
+    const plain = await Denoiser.create(watched, randomNetwork(3), { subgroupMatrices: false, webAssembly: false });
     programs.length = 0;
     await plain.prepare(16, 16);
     expect(programs.filter((label) => label.includes('matrices'))).toEqual([]);
@@ -315,7 +315,7 @@ describe('convolution by subgroup matrices', () => {
         return typeof value === 'function' ? (value as (...args: unknown[]) => unknown).bind(target) : value;
       },
     });
-    const denoiser = await Denoiser.create(pretender, randomNetwork(3));
+    const denoiser = await Denoiser.create(pretender, randomNetwork(3), { webAssembly: false });
     await denoiser.prepare(16, 16);
     expect(programs.filter((label) => label.includes('rows of matrices')).length).toBeGreaterThan(0);
     expect(programs.at(-1)).toContain('threads of');

@@ -1,6 +1,6 @@
 import { fileURLToPath } from 'node:url';
 import { servePage, watch, type Served } from '@glanz/browser';
-import type { FilmDenoiser } from '@glanz/denoise/film';
+import type { FilmDenoiser, FilmDenoiserOptions } from '@glanz/denoise/film';
 import { expect, test, type Page } from '@playwright/test';
 import type { ViewerOptions } from '@glanz/viewer';
 import { front, model, sky } from './open';
@@ -16,9 +16,12 @@ interface Calls {
 }
 interface TestWindow {
   calls: Calls;
-  filmDenoiser: (device: GPUDevice) => Promise<FilmDenoiser>;
+  filmDenoiser: (device: GPUDevice, options?: FilmDenoiserOptions) => Promise<FilmDenoiser>;
   /** Denoises a square of noise; aborts where a part of the work is done. */
-  denoiseNoise: (size: number, abortAt?: number) => Promise<string>;
+  denoiseNoise: (
+    size: number,
+    options?: { readonly abortAt?: number; readonly webAssembly?: boolean },
+  ) => Promise<string>;
 }
 declare const window: TestWindow & Pick<Window, 'make' | 'file'> & typeof globalThis;
 
@@ -57,13 +60,13 @@ test.beforeAll(async ({ browser }) => {
       calls.mapped.push(range.byteLength);
       return range;
     };
-    let shared: { readonly device: GPUDevice; readonly denoiser: FilmDenoiser } | undefined;
-    const create = async () => {
+    const shared: { device: GPUDevice; denoiser: FilmDenoiser }[] = [];
+    const create = async (webAssembly: boolean) => {
       const device = await (await navigator.gpu.requestAdapter())!.requestDevice();
-      return { device, denoiser: await window.filmDenoiser(device) };
+      return { device, denoiser: await window.filmDenoiser(device, { webAssembly }) };
     };
-    window.denoiseNoise = async (size, abortAt = Infinity) => {
-      const { device, denoiser } = (shared ??= await create());
+    window.denoiseNoise = async (size, { abortAt = Infinity, webAssembly = false } = {}) => {
+      const { device, denoiser } = (shared[webAssembly ? 1 : 0] ??= await create(webAssembly));
       const image = (fill: (i: number) => number) => {
         const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC;
         const buffer = device.createBuffer({ size: 16 * size * size, usage, mappedAtCreation: true });
@@ -102,7 +105,7 @@ test.beforeAll(async ({ browser }) => {
           },
         })
         .then(
-          () => 'done',
+          ({ kernels }) => `done by ${kernels}`,
           (error: Error) => error.name,
         );
       // What would still be submitted comes by now.
@@ -122,7 +125,7 @@ const submissions = (events: Calls['events']) => events.filter((event) => typeof
 const callsOf = (page: Page) => page.evaluate(() => window.calls);
 
 test('while an image is denoised the page runs between submissions, and reads and writes no pixels', async () => {
-  expect(await page.evaluate(() => window.denoiseNoise(128))).toBe('done');
+  expect(await page.evaluate(() => window.denoiseNoise(128))).toBe('done by shaders');
   const { events, mapped, written } = await callsOf(page);
   expect(submissions(events).length).toBeGreaterThan(12);
   // In one turn: the film is copied and its fireflies are held back, and two submissions of the network go ahead of the
@@ -138,7 +141,7 @@ test('while an image is denoised the page runs between submissions, and reads an
 });
 
 test('an abort is followed by no other layer', async () => {
-  expect(await page.evaluate(() => window.denoiseNoise(128, 0.3))).toBe('AbortError');
+  expect(await page.evaluate(() => window.denoiseNoise(128, { abortAt: 0.3 }))).toBe('AbortError');
   const { events } = await callsOf(page);
   const at = events.indexOf('abort');
   const before = submissions(events.slice(0, at));
@@ -146,6 +149,23 @@ test('an abort is followed by no other layer', async () => {
   expect(submissions(events.slice(at))).toEqual([]);
   // What the GPU had not begun by then is the rest of a layer, or parts of two.
   expect(new Set(before.at(-1)).size).toBeLessThanOrEqual(2);
+});
+
+test('in WebAssembly an image is read and written by parts, and the page runs between slices of the layers', async () => {
+  expect(await page.evaluate(() => window.denoiseNoise(256, { webAssembly: true }))).toBe('done by webAssembly');
+  const { events, mapped, written } = await callsOf(page);
+  // Nine channels in vectors of four floats, in single precision; at most 2 MiB at a time.
+  expect(mapped.reduce((sum, bytes) => sum + bytes, 0)).toBe(256 * 256 * 48);
+  expect(Math.max(...mapped)).toBeLessThanOrEqual(2 ** 21);
+  expect(Math.max(...written)).toBeLessThanOrEqual(2 ** 21);
+  // More work than a slice holds lies between the last part that is read and the first that is written.
+  expect(events.filter((event) => event === 'turn').length).toBeGreaterThan(mapped.length + 2);
+});
+
+test('an abort of WebAssembly is followed by no submission', async () => {
+  expect(await page.evaluate(() => window.denoiseNoise(256, { webAssembly: true, abortAt: 0.3 }))).toBe('AbortError');
+  const { events } = await callsOf(page);
+  expect(submissions(events.slice(events.indexOf('abort')))).toEqual([]);
 });
 
 test('the variance of a film is not read by the page', async () => {
@@ -156,7 +176,7 @@ test('the variance of a film is not read by the page', async () => {
       for (let i = 0; viewer.state !== 'done' && i < 3000; i++) await new Promise((resolve) => setTimeout(resolve, 20));
       const tracer = viewer.tracer!;
       await tracer.setAovs(['albedo', 'normal']);
-      const denoiser = await window.filmDenoiser(viewer.device!);
+      const denoiser = await window.filmDenoiser(viewer.device!, { webAssembly: false });
       const { mapped } = window.calls;
       mapped.length = 0;
       await denoiser.denoiseTracer(tracer);

@@ -217,19 +217,19 @@ export class FilmDenoiser {
     // The film may get samples meanwhile: all that follows sees the same one.
     this.#submit((encoder) => encoder.copyBufferToBuffer(color, 0, buffers.film, 0, bytes));
     this.#dispatch(this.#kernels.fireflies, buffers, { 3: buffers.held }, groups);
-    await this.#denoiser.denoise(
+    const { kernels } = await this.#denoiser.denoise(
       { width, height, color: buffers.held, albedo, normal, output: buffers.denoised },
       options,
     );
     this.#expectAlive();
-    if (!blend) return { buffer: buffers.denoised, width, height };
+    if (!blend) return { buffer: buffers.denoised, width, height, kernels };
     const inputs = { 2: buffers.denoised, 4: variance ?? buffers.noVariance };
     this.#dispatch(this.#kernels.errors, buffers, { ...inputs, 3: buffers.tiles }, groups);
     this.#dispatch(this.#kernels.blend, buffers, { ...inputs, 3: buffers.result, 5: buffers.tiles }, groups);
     await queue.onSubmittedWorkDone();
     options.signal?.throwIfAborted();
     this.#expectAlive();
-    return { buffer: buffers.result, width, height };
+    return { buffer: buffers.result, width, height, kernels };
   }
 
   #submit(record: (encoder: GPUCommandEncoder) => void): void {

@@ -1,4 +1,4 @@
-import type { DenoiseOptions, DenoiserOptions, DenoiserStorage } from '../options';
+import type { DenoiseKernels, DenoiseOptions, DenoiserOptions, DenoiserStorage } from '../options';
 
 /**
  * Which networks denoise a film.
@@ -29,6 +29,8 @@ export interface FilmDenoiserOptions {
   readonly maxSubmitMs?: number;
   /** See `DenoiserOptions.subgroupMatrices`. */
   readonly subgroupMatrices?: boolean;
+  /** See `DenoiserOptions.webAssembly`. */
+  readonly webAssembly?: boolean;
   /** See `DenoiserOptions.shapeOf`: what `tuneShapes` of `@glanz/denoise/tune` found for this device. */
   readonly shapeOf?: NonNullable<DenoiserOptions['shapeOf']>;
   /** Ends the creation with the signal's reason. */
@@ -73,6 +75,8 @@ export interface DenoisedFilm {
   readonly buffer: GPUBuffer;
   readonly width: number;
   readonly height: number;
+  /** What computed the network's layers, see `DenoiseResult.kernels`. */
+  readonly kernels: DenoiseKernels;
 }
 
 /** The part of a `PathTracer` of `@glanz/renderer` that {@link FilmDenoiser.denoiseTracer} needs. */

@@ -1,4 +1,4 @@
-import { FilmDenoiser } from '@glanz/denoise/film';
+import { FilmDenoiser, type FilmDenoiserOptions } from '@glanz/denoise/film';
 import { smallUrl } from '@glanz/denoise-weights/small';
 import { decodeExr } from '@glanz/image';
 import { frameCamera } from '@glanz/scene';
@@ -26,8 +26,8 @@ Object.assign(window, {
   },
   decodeExr,
   denoising,
-  filmDenoiser: async (device: GPUDevice) =>
-    FilmDenoiser.create(device, { color: await (await fetch(smallUrl())).arrayBuffer() }),
+  filmDenoiser: async (device: GPUDevice, options: FilmDenoiserOptions = {}) =>
+    FilmDenoiser.create(device, { color: await (await fetch(smallUrl())).arrayBuffer() }, options),
 });
 
 /** Frames of a film as the browser plays it, at the middles of their times. */

@@ -75,7 +75,11 @@ class Subject {
     options: DenoiserOptions,
     use: (run: () => Promise<void>, denoiser: Denoiser) => Promise<T>,
   ): Promise<T> {
-    const denoiser = await Denoiser.create(this.#device, randomArchive(network), { maxSubmitMs: Infinity, ...options });
+    const denoiser = await Denoiser.create(this.#device, randomArchive(network), {
+      maxSubmitMs: Infinity,
+      webAssembly: false,
+      ...options,
+    });
     try {
       const { width, height } = this;
       return await use(async () => void (await denoiser.denoise({ ...this.#buffers, width, height })), denoiser);
@@ -125,6 +129,23 @@ async function alternate(
   return { theirs, ours };
 }
 
+/** Wall milliseconds of an image by WebAssembly and by shaders, alternating. */
+async function besideShaders(subject: Subject, network: NetworkSize, storage: DenoiserStorage, rounds: number) {
+  const wasm: number[] = [];
+  const shaders: number[] = [];
+  await subject.with(network, { storage, webAssembly: true }, (runWasm) =>
+    subject.with(network, { storage, webAssembly: false }, async (runShaders) => {
+      // Compiles.
+      for (const run of [runWasm, runShaders]) await run();
+      for (let i = 0; i < rounds; i++) {
+        wasm.push(...(await wallTimes(1, 0, runWasm)));
+        shaders.push(...(await wallTimes(1, 0, runShaders)));
+      }
+    }),
+  );
+  return { wasm, shaders };
+}
+
 /** GPU milliseconds of each kernel, run `repeats` times on end: the smallest of several runs. */
 async function kernelTimes(device: GPUDevice, runs: number, repeats: number, run: () => Promise<void>) {
   const times = new Map<string, { pipeline: string; ms: number }>();
@@ -154,6 +175,10 @@ export const benchmark: Benchmark = {
     networks: { type: 'string', help: 'of small,base,large; default all' },
     sizes: { type: 'string', help: 'of 128,512,1080p,2160p; default 512,1080p, on software GPUs 128' },
     storage: { type: 'string', help: 'f16 (default) or f32' },
+    webassembly: {
+      type: 'string',
+      help: '"beside": only WebAssembly, as on software GPUs, and shaders beside it; "yes" or "no": which is measured; default no',
+    },
     variants: { type: 'string', help: '"no": only the usual kernels; or numbers of variants, 0,3,…' },
     tune: { type: 'string', help: '"yes": besides, with the shapes that tuneShapes finds within its default time' },
     onnxruntime: {
@@ -244,8 +269,21 @@ export const benchmark: Benchmark = {
     for (const { size, network } of jobs) {
       const subject = new Subject(device, size);
       const key = `${network} ${size}`;
+      if (values['webassembly'] === 'beside') {
+        const { wasm, shaders } = await besideShaders(subject, network, storage, runs);
+        const ratios = shaders.map((ms, i) => ms / wasm[i]!);
+        figures.push(
+          timed(`${key}, WebAssembly: wall time`, 'ms', wasm),
+          timed(`${key}, shaders beside it: wall time`, 'ms', shaders),
+          timed(`${key}: wall time of shaders over that of WebAssembly`, '1', ratios),
+        );
+        const list = (numbers: readonly number[]) => numbers.map((ms) => ms.toFixed(1)).join(' ');
+        log(`${key}: WebAssembly ${list(wasm)} ms, shaders ${list(shaders)} ms, ratio ${list(ratios)}`);
+        subject.destroy();
+        continue;
+      }
       const compile = performance.now();
-      await subject.with(network, { storage }, async (run, denoiser) => {
+      await subject.with(network, { storage, webAssembly: values['webassembly'] === 'yes' }, async (run, denoiser) => {
         await denoiser.prepare(subject.width, subject.height);
         figures.push(timed(`${key}: prepare`, 'ms', [performance.now() - compile]));
         await whole(key, key, run);
@@ -265,7 +303,7 @@ export const benchmark: Benchmark = {
       });
       // Once more without matrices, which are used where the device has them.
       if (device.features.has('chromium-experimental-subgroup-matrix'))
-        await subject.with(network, { storage, subgroupMatrices: false }, (run) =>
+        await subject.with(network, { storage, subgroupMatrices: false, webAssembly: false }, (run) =>
           whole(`${key}, without subgroup matrices`, key, run),
         );
       if (onnx) {

@@ -1,0 +1,304 @@
+import { setFlagsFromString } from 'node:v8';
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { afterEach, beforeAll, describe, expect, it, test, vi } from 'vitest';
+import { denoiseOnCpu } from '../src/cpu/index';
+import { DenoiseError, Denoiser, type DenoiserInput, type DenoiserOptions } from '../src/index';
+import { readNetwork } from '../src/network';
+import { WasmNetwork } from '../src/wasm/evaluator';
+import { kernelBytes, type WasmKernels } from '../src/wasm/kernels';
+import { planWasm } from '../src/wasm/plan';
+import { denoiseOnGpu, download, outputBuffer, upload } from './gpu';
+import { CHECKED_CASES, MISSING, differences, imagesOf, tolerances, weightsOf } from './oracle';
+import { numbersFrom, randomImages, randomNetwork } from './random-network';
+
+let device: GPUDevice;
+beforeAll(async () => void (device = await testDevice({ driver: 'swiftshader' })));
+afterEach(() => expectNoGpuErrors());
+
+const compute = (
+  weights: Uint8Array,
+  images: Parameters<typeof denoiseOnGpu>[1],
+  options: DenoiserOptions & { readonly input: DenoiserInput },
+) => denoiseOnGpu(weights, images, { webAssembly: true, ...options }, device);
+
+describe('WebAssembly against the oracle', () => {
+  for (const oracle of CHECKED_CASES)
+    it(oracle.case, async () => {
+      const { expected, input, ...images } = imagesOf(oracle);
+      const { rgb, kernels } = await compute(weightsOf(oracle.net), images, { input });
+      expect(kernels).toBe('webAssembly');
+      const found = differences(rgb, expected);
+      // In single precision, whatever the storage of shaders is.
+      for (const [kind, limit] of Object.entries(tolerances(oracle, 'f32')))
+        expect(found[kind as keyof typeof found], kind).toBeLessThanOrEqual(limit);
+    });
+  test.skipIf(MISSING === undefined)(`cases with real weights: ${MISSING}`, () => undefined);
+});
+
+const CASES: readonly (readonly [DenoiserInput, 3 | 6 | 9, 'plain' | 'large', number, number])[] = [
+  ['hdr', 9, 'plain', 45, 37],
+  ['hdr', 6, 'large', 16, 50],
+  ['hdr', 3, 'plain', 33, 16],
+  ['ldr', 9, 'large', 17, 15],
+  ['srgb', 6, 'plain', 31, 33],
+  ['albedo', 3, 'plain', 1, 1],
+  ['normal', 3, 'large', 5, 70],
+];
+
+describe('WebAssembly computes what the CPU twin does', () => {
+  for (const [input, channels, graph, width, height] of CASES)
+    it(`${input}, ${channels} channels, ${graph}, ${width} × ${height}`, async () => {
+      const weights = randomNetwork(channels, graph);
+      const images = randomImages(width, height);
+      const { rgb } = await compute(weights, images, { input });
+      const expected = await denoiseOnCpu(weights, images, { input });
+      // As for shaders in single precision.
+      const { max, absolute } = differences(rgb, expected);
+      expect(input === 'hdr' ? max : absolute).toBeLessThan(input === 'hdr' ? 2e-4 : 2e-5);
+      if (width > 1) expect(new Set(expected).size).toBeGreaterThan((width * height) / 4);
+    });
+
+  it('with guides that networks of their own clean first, and a scale', async () => {
+    const weights = randomNetwork(9);
+    const prefilter = { albedo: randomNetwork(3, 'plain', 2), normal: randomNetwork(3, 'large', 3) };
+    const images = { ...randomImages(40, 24), scale: 3 };
+    const { rgb } = await compute(weights, images, { input: 'hdr', prefilter });
+    expect(differences(rgb, await denoiseOnCpu(weights, images, { prefilter })).max).toBeLessThan(2e-4);
+  });
+});
+
+/** How many floats of two images differ. */
+const different = (a: Float32Array, b: Float32Array): number =>
+  a.reduce((count, value, i) => count + (Object.is(value, b[i]) ? 0 : 1), 0);
+
+/** Images in buffers of the test device. */
+function bind(width: number, height: number) {
+  const { color, albedo, normal } = randomImages(width, height);
+  const output = outputBuffer(device, width * height);
+  const images = {
+    color: upload(device, color),
+    albedo: upload(device, albedo),
+    normal: upload(device, normal),
+    output,
+    width,
+    height,
+  };
+  return { images, result: () => download(device, output) };
+}
+
+const weights = randomNetwork(9);
+
+describe('memory for WebAssembly', () => {
+  const wide = randomImages(420, 64);
+
+  it('that is little leads to tiles, with the same bits', async () => {
+    const whole = await compute(weights, wide, { input: 'hdr' });
+    expect(whole.tiles).toBe(1);
+    const tiled = await compute(weights, wide, { input: 'hdr', maxMemory: 3_000_000 });
+    expect(tiled.tiles).toBeGreaterThan(1);
+    expect(different(tiled.rgba, whole.rgba)).toBe(0);
+  });
+
+  it('that is refused leads to smaller tiles, and to an error where not even those fit', async () => {
+    const long = randomImages(900, 64);
+    const { Memory } = WebAssembly;
+    const asked: number[] = [];
+    const refuseAbove = (pages: number) =>
+      (WebAssembly.Memory = class extends Memory {
+        constructor(descriptor: WebAssembly.MemoryDescriptor) {
+          asked.push(descriptor.initial);
+          if (descriptor.initial > pages) throw new RangeError('could not allocate memory');
+          super(descriptor);
+        }
+      });
+    try {
+      const whole = await compute(weights, long, { input: 'hdr' });
+      refuseAbove(100);
+      const tiled = await compute(weights, long, { input: 'hdr' });
+      expect(asked.filter((pages) => pages > 100).length).toBeGreaterThan(0);
+      expect(tiled.tiles).toBeGreaterThan(1);
+      expect(different(tiled.rgba, whole.rgba)).toBe(0);
+      refuseAbove(1);
+      const error = await compute(weights, long, { input: 'hdr' }).catch((cause: unknown) => cause);
+      expect(error).toBeInstanceOf(DenoiseError);
+      expect((error as DenoiseError).code).toBe('denoise/memory');
+    } finally {
+      WebAssembly.Memory = Memory;
+    }
+  });
+});
+
+describe('slices of WebAssembly', () => {
+  test.skipIf(MISSING === undefined)(`with real weights: ${MISSING}`, () => undefined);
+  it.skipIf(MISSING !== undefined)(
+    'are made of steps of well under 50 ms, in the largest network and the widest image',
+    () => {
+      const network = readNetwork(weightsOf('rt_hdr_calb_cnrm_large'));
+      const [width, height] = [16384, 16];
+      const plan = planWasm(network, width, height);
+      const memory = new WebAssembly.Memory({ initial: 1 });
+      let calls = 0;
+      const count = { convolve: () => void calls++, pool: () => undefined };
+      const tiling = { width, height, tiles: [] };
+      const steps = [
+        ...new WasmNetwork(
+          { network, tiling, plan },
+          count,
+          memory,
+          plan.layers.map(() => 0),
+          0,
+        ).steps(),
+      ];
+      expect(calls).toBe(steps.length);
+      // dec_conv1b: eight channels of a row, from 64. In 50 ms a processor that is a fifth as fast as any of today's,
+      // 3 GFLOP/s, computes that.
+      expect(Math.max(...steps)).toBe(width * 8 * 9 * 64);
+    },
+  );
+});
+
+describe('work in WebAssembly', () => {
+  /** Time passes at each look at the clock: each step of the work is a slice of its own. */
+  function fastClock() {
+    let now = 0;
+    return vi.spyOn(performance, 'now').mockImplementation(() => (now += 20));
+  }
+  afterEach(() => vi.restoreAllMocks());
+
+  it('returns to the event loop after each step where those are slow, ends at an abort, and is right the next time', async () => {
+    const { images, result } = bind(64, 48);
+    const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+    await denoiser.denoise(images);
+    const expected = await result();
+    fastClock();
+    const progress: number[] = [];
+    await denoiser.denoise(images, { onProgress: (done) => progress.push(done) });
+    // Of the layers at the full size alone: one row, or one parity of it where a source is upsampled, of eight channels.
+    expect(progress.length).toBeGreaterThan(6 * 48);
+    expect(progress.at(-1)).toBe(1);
+    expect(progress.every((done, i) => i === 0 || done >= progress[i - 1]!)).toBe(true);
+    expect(different(await result(), expected)).toBe(0);
+    const reason = new Error('the camera moved');
+    for (const after of [1, 5, 300]) {
+      const controller = new AbortController();
+      let called = 0;
+      const onProgress = () => void (++called === after && controller.abort(reason));
+      await expect(denoiser.denoise(images, { signal: controller.signal, onProgress })).rejects.toBe(reason);
+      expect(called).toBe(after);
+    }
+    await denoiser.denoise(images);
+    expect(different(await result(), expected)).toBe(0);
+    denoiser.destroy();
+  });
+
+  it('of two calls comes one after the other, and sizes may change', async () => {
+    const [a, b] = [bind(64, 48), bind(48, 80)];
+    const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+    await Promise.all([denoiser.denoise(a.images), denoiser.denoise(b.images)]);
+    const [first, second] = [await a.result(), await b.result()];
+    await denoiser.denoise(a.images);
+    expect(different(await a.result(), first)).toBe(0);
+    await denoiser.denoise(b.images);
+    expect(different(await b.result(), second)).toBe(0);
+    denoiser.destroy();
+  });
+});
+
+describe('the choice between WebAssembly and shaders', () => {
+  const kernelsOf = async (options: DenoiserOptions, on = device) => {
+    const { images } = bind(16, 16);
+    const denoiser = await Denoiser.create(on, weights, options);
+    try {
+      return (await denoiser.denoise(images)).kernels;
+    } finally {
+      denoiser.destroy();
+    }
+  };
+  const hardware = () =>
+    new Proxy(device, {
+      get(target, key) {
+        if (key === 'adapterInfo') return { architecture: 'turing', device: '', description: '' };
+        const value = Reflect.get(target, key) as unknown;
+        return typeof value === 'function' ? (value as (...args: unknown[]) => unknown).bind(target) : value;
+      },
+    });
+
+  it('is made by the adapter, unless an option makes it', async () => {
+    expect(await kernelsOf({})).toBe('webAssembly');
+    expect(await kernelsOf({ webAssembly: false })).toBe('shaders');
+    expect(await kernelsOf({}, hardware())).toBe('shaders');
+    expect(await kernelsOf({ webAssembly: true }, hardware())).toBe('webAssembly');
+  });
+
+  it('falls on shaders where a policy forbids WebAssembly', async () => {
+    const compile = vi.spyOn(WebAssembly, 'compile').mockRejectedValue(new WebAssembly.CompileError('unsafe-eval'));
+    expect(await kernelsOf({})).toBe('shaders');
+    expect(compile).toHaveBeenCalled();
+    compile.mockRestore();
+    const { WebAssembly: own } = globalThis;
+    Object.assign(globalThis, { WebAssembly: undefined });
+    try {
+      expect(await kernelsOf({ webAssembly: true })).toBe('shaders');
+    } finally {
+      Object.assign(globalThis, { WebAssembly: own });
+    }
+  });
+
+  it('leaves encode() to shaders', async () => {
+    const { images, result } = bind(32, 32);
+    const shaders = await Denoiser.create(device, weights, { webAssembly: false });
+    await shaders.denoise(images);
+    const expected = await result();
+    shaders.destroy();
+    const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+    await denoiser.prepare(32, 32);
+    await denoiser.denoise(images);
+    expect(different(await result(), expected)).toBeGreaterThan(0);
+    const encoder = device.createCommandEncoder();
+    denoiser.encode(encoder, images);
+    device.queue.submit([encoder.finish()]);
+    expect(different(await result(), expected)).toBe(0);
+    denoiser.destroy();
+  });
+});
+
+describe('the module', () => {
+  // Node 20 has relaxed SIMD behind a flag, later versions and browsers without.
+  beforeAll(() => setFlagsFromString('--experimental-wasm-relaxed-simd'));
+
+  it.each([false, true])('convolves, with fused products: %s', async (fused) => {
+    const memory = new WebAssembly.Memory({ initial: 1 });
+    const floats = new Float32Array(memory.buffer);
+    const random = numbersFrom(5);
+    for (let i = 0; i < floats.length; i++) floats[i] = random() - 0.5;
+    const { instance } = await WebAssembly.instantiate(kernelBytes(fused), { m: { memory } });
+    const { convolve } = instance.exports as unknown as WasmKernels;
+    // Two sources, of 8 and 4 floats at strides of 3 and 5; results at a stride of 9 floats; two tiles of four pixels.
+    const sources = [
+      { at: 1000, stride: 3, rounds: 2, weights: 2000 },
+      { at: 1500, stride: 5, rounds: 1, weights: 3000 },
+    ];
+    const [result, step, bias] = [5000, 9, 4000];
+    const expected = Array.from({ length: 64 }, (_, i) => {
+      const [pixel, channel] = [i >> 3, i & 7];
+      let sum = floats[bias + channel]!;
+      for (const { at, stride, rounds, weights } of sources)
+        for (let k = 0; k < 4 * rounds; k++)
+          sum += floats[at + pixel * stride + k]! * floats[weights + 8 * k + channel]!;
+      return Math.max(0, sum);
+    });
+    const words = new Int32Array(memory.buffer);
+    for (const [i, { at, stride, rounds, weights }] of sources.entries())
+      words.set([4 * at, 4 * stride, rounds, 4 * weights], 4 * i);
+    convolve(4 * result, 4 * step, 2, 4 * bias, 0, 2);
+    expect(expected.filter((value) => value > 0).length).toBeGreaterThan(16);
+    for (const [i, value] of expected.entries())
+      // Twelve products of at most a quarter, each rounded.
+      expect(Math.abs(floats[result + (i >> 3) * step + (i & 7)]! - value)).toBeLessThan(24 * 2 ** -24);
+  });
+
+  it('needs nothing but SIMD without fused products', () => {
+    setFlagsFromString('--no-experimental-wasm-relaxed-simd');
+    expect(WebAssembly.validate(kernelBytes(false))).toBe(true);
+  });
+});
