@@ -21,6 +21,27 @@ const compute = (
   options: DenoiserOptions & { readonly input: DenoiserInput },
 ) => denoiseOnGpu(weights, images, { webAssembly: true, ...options }, device);
 
+/** How many floats of two images differ. */
+const different = (a: Float32Array, b: Float32Array): number =>
+  a.reduce((count, value, i) => count + (Object.is(value, b[i]) ? 0 : 1), 0);
+
+/** Images in buffers of the test device. */
+function bind(width: number, height: number) {
+  const { color, albedo, normal } = randomImages(width, height);
+  const output = outputBuffer(device, width * height);
+  const images = {
+    color: upload(device, color),
+    albedo: upload(device, albedo),
+    normal: upload(device, normal),
+    output,
+    width,
+    height,
+  };
+  return { images, result: () => download(device, output) };
+}
+
+const weights = randomNetwork(9);
+
 describe('WebAssembly against the oracle', () => {
   for (const oracle of CHECKED_CASES)
     it(oracle.case, async () => {
@@ -58,35 +79,26 @@ describe('WebAssembly computes what the CPU twin does', () => {
       if (width > 1) expect(new Set(expected).size).toBeGreaterThan((width * height) / 4);
     });
 
+  it('without a GPU', async () => {
+    const prefilter = { albedo: randomNetwork(3, 'plain', 2) };
+    const images = randomImages(45, 37);
+    const expected = await denoiseOnCpu(weights, images, { prefilter });
+    const found = await denoiseOnCpu(weights, images, { prefilter, webAssembly: true });
+    expect(differences(found, expected).max).toBeLessThan(2e-4);
+    expect(different(found, expected)).toBeGreaterThan(0);
+    const reason = new Error('no longer needed');
+    await expect(denoiseOnCpu(weights, images, { webAssembly: true, signal: AbortSignal.abort(reason) })).rejects.toBe(
+      reason,
+    );
+  });
+
   it('with guides that networks of their own clean first, and a scale', async () => {
-    const weights = randomNetwork(9);
     const prefilter = { albedo: randomNetwork(3, 'plain', 2), normal: randomNetwork(3, 'large', 3) };
     const images = { ...randomImages(40, 24), scale: 3 };
     const { rgb } = await compute(weights, images, { input: 'hdr', prefilter });
     expect(differences(rgb, await denoiseOnCpu(weights, images, { prefilter })).max).toBeLessThan(2e-4);
   });
 });
-
-/** How many floats of two images differ. */
-const different = (a: Float32Array, b: Float32Array): number =>
-  a.reduce((count, value, i) => count + (Object.is(value, b[i]) ? 0 : 1), 0);
-
-/** Images in buffers of the test device. */
-function bind(width: number, height: number) {
-  const { color, albedo, normal } = randomImages(width, height);
-  const output = outputBuffer(device, width * height);
-  const images = {
-    color: upload(device, color),
-    albedo: upload(device, albedo),
-    normal: upload(device, normal),
-    output,
-    width,
-    height,
-  };
-  return { images, result: () => download(device, output) };
-}
-
-const weights = randomNetwork(9);
 
 describe('memory for WebAssembly', () => {
   const wide = randomImages(420, 64);
