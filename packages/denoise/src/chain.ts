@@ -1,5 +1,4 @@
 import { DenoiseError } from './error';
-import { bindImages, type BoundImages } from './images';
 import type { Job } from './jobs';
 import type { Kernel } from './gpu';
 import { allocate, type PrepareOptions } from './memory';
@@ -7,23 +6,19 @@ import type { Network } from './network';
 import { NetworkKernels } from './network-kernels';
 import { Prepared } from './prepared';
 import type { DenoiseImages, DenoiserInput, DenoiserStorage } from './options';
+import { boundChain, type Stage } from './stages';
 
-/** A network on the device: what it denoises, its shaders and weights. */
-export interface Stage {
-  readonly input: DenoiserInput;
-  readonly network: Network;
+/** A network that shaders evaluate. */
+export interface ShaderStage extends Stage {
   readonly kernels: NetworkKernels;
 }
-
-/** Guides that are cleaned before they guide. */
-export type CleanGuide = 'albedo' | 'normal';
 
 /** The networks that a denoiser evaluates one after the other: those that clean guides, then the one for the image. */
 export function makeStages(
   device: GPUDevice,
   networks: readonly (readonly [DenoiserInput, Network])[],
   storage: DenoiserStorage,
-): Stage[] {
+): ShaderStage[] {
   const shared = new Map<string, Promise<Kernel>>();
   return networks.map(([input, network]) => ({
     input,
@@ -32,30 +27,10 @@ export function makeStages(
   }));
 }
 
-/**
- * The images of each stage, checked: those that clean guides write into `guides`, the last takes what they have written.
- *
- * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/limit`, `denoise/option`.
- */
-export function boundChain(
-  device: GPUDevice,
-  stages: readonly Stage[],
-  guides: readonly GPUBuffer[],
-  images: DenoiseImages,
-): BoundImages[] {
-  const cleaned: Partial<Record<CleanGuide, { buffer: GPUBuffer; pixelStride: 3 }>> = {};
-  return stages.map(({ input, network }, i) => {
-    const guide = guides[i];
-    if (guide) cleaned[input as CleanGuide] = { buffer: guide, pixelStride: 3 };
-    const taken = guide ? { ...images, output: { buffer: guide, pixelStride: 3 } } : { ...images, ...cleaned };
-    return bindImages(network, input, taken, device.limits);
-  });
-}
-
 /** All stages, ready for images of a size. */
 export class Chain {
   readonly #device: GPUDevice;
-  readonly #stages: readonly Stage[];
+  readonly #stages: readonly ShaderStage[];
   readonly #prepared: Prepared[] = [];
   readonly #buffers: readonly GPUBuffer[];
   readonly #guides: readonly GPUBuffer[];
@@ -64,7 +39,7 @@ export class Chain {
 
   private constructor(
     device: GPUDevice,
-    stages: readonly Stage[],
+    stages: readonly ShaderStage[],
     { width, height }: PrepareOptions,
     { buffers, images }: { buffers: readonly GPUBuffer[]; images: readonly GPUBuffer[] },
   ) {
@@ -77,7 +52,7 @@ export class Chain {
   }
 
   /** @throws {DenoiseError} `denoise/memory`, `denoise/limit`, `denoise/pipeline`. */
-  static async create(device: GPUDevice, stages: readonly Stage[], options: PrepareOptions): Promise<Chain> {
+  static async create(device: GPUDevice, stages: readonly ShaderStage[], options: PrepareOptions): Promise<Chain> {
     const memory = await allocate(
       device,
       stages.map(({ network }) => network),

@@ -1,13 +1,8 @@
 import { DenoiseError } from './error';
-import { chooseShape, withGroups } from './kernels/choose-shape';
-import type { DeviceMatrices } from './kernels/shapes';
-import { readNetwork, type Network } from './network';
+import { readNetwork } from './network';
 import type { DenoiserInput, DenoiserOptions } from './options';
-import type { PlanOptions } from './plan';
+import type { NetworkOf } from './stages';
 import type { StartedWasm } from './wasm/wasm-chain';
-
-/** A network, and what it denoises. */
-export type NetworkOf = readonly [input: DenoiserInput, network: Network];
 
 const INPUTS: readonly DenoiserInput[] = ['hdr', 'ldr', 'srgb', 'albedo', 'normal'];
 
@@ -65,43 +60,14 @@ export function readNetworks(
   return networks;
 }
 
-/**
- * How layers are shared: as the caller asks for where that fits, by subgroup matrices where the device has them, among
- * threads by the usual choice elsewhere.
- */
-export function shapesOf(
-  device: GPUDevice,
-  shapeOf: DenoiserOptions['shapeOf'],
-  matrices: DeviceMatrices | undefined,
-): PlanOptions['shapeOf'] {
-  const software = isSoftware(device);
-  return (layer, width, height) => {
-    const family = shapeOf?.(layer, width, height);
-    const shape = family && withGroups(family, layer);
-    return shape ?? matrices?.shapeOf(layer) ?? chooseShape(layer, width, height, software);
-  };
-}
-
-/** Matrices by which a denoiser with these options computes. */
-export async function matricesFor(
-  device: GPUDevice,
-  { storage, subgroupMatrices = true }: Pick<DenoiserOptions, 'storage' | 'subgroupMatrices'>,
-): Promise<DeviceMatrices | undefined> {
-  const { features } = device;
-  if (!subgroupMatrices || storage === 'f32') return undefined;
-  if (!features.has('shader-f16') || !features.has('chromium-experimental-subgroup-matrix')) return undefined;
-  // Few devices have them: others do not load this. Without it threads do the work.
-  const module = await import('./kernels/choose-matrices').catch(() => undefined);
-  return module?.matricesOf(device);
-}
-
 /** WebAssembly that computes the layers of a denoiser with these options; `undefined` where shaders do. */
 export async function wasmFor(
   device: GPUDevice,
+  networks: readonly NetworkOf[],
   { webAssembly = isSoftware(device) }: Pick<DenoiserOptions, 'webAssembly'>,
 ): Promise<StartedWasm | undefined> {
   if (!webAssembly) return undefined;
   // Few devices want it: others do not load this. Without it shaders do the work.
   const chain = await import('./wasm/wasm-chain').catch(() => undefined);
-  return chain?.startWasm();
+  return chain?.startWasm(device, networks);
 }

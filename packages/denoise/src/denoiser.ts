@@ -1,8 +1,7 @@
-import { Chain, makeStages, type Stage } from './chain';
-import { checkOptions, matricesFor, readNetworks, shapesOf, wasmFor, type NetworkOf } from './configure';
+import type { Chain } from './chain';
+import { checkOptions, readNetworks, wasmFor } from './configure';
 import { DenoiseError } from './error';
 import { lossOf } from './gpu';
-import type { DeviceMatrices } from './kernels/shapes';
 import { checkSize } from './images';
 import { JobCursor, costOf } from './jobs';
 import type {
@@ -14,6 +13,8 @@ import type {
   DenoiserStorage,
 } from './options';
 import { Pace } from './pace';
+import type { Shaders } from './shaders';
+import type { NetworkOf } from './stages';
 import type { StartedWasm, WasmChain } from './wasm/wasm-chain';
 
 /**
@@ -26,11 +27,8 @@ import type { StartedWasm, WasmChain } from './wasm/wasm-chain';
  */
 export class Denoiser {
   readonly #device: GPUDevice;
-  readonly #stages: readonly Stage[];
-  readonly #maxMemory: number;
+  readonly #networks: readonly NetworkOf[];
   readonly #options: DenoiserOptions;
-  /** `undefined` where the device has none, or the driver does not compile their kernels. */
-  #matrices: DeviceMatrices | undefined;
   /** `undefined` where shaders compute the layers. */
   readonly #wasm: StartedWasm | undefined;
   readonly #pace: Pace;
@@ -40,6 +38,8 @@ export class Denoiser {
   readonly input: DenoiserInput;
   /** Precision between layers. */
   readonly storage: DenoiserStorage;
+  /** Where WebAssembly computes the layers, they are made for encode(). */
+  #shaders: Shaders | undefined;
   #chain: Chain | undefined;
   #wasmChain: WasmChain | undefined;
   #last: Promise<unknown> = Promise.resolve();
@@ -49,17 +49,14 @@ export class Denoiser {
     device: GPUDevice,
     networks: readonly NetworkOf[],
     options: DenoiserOptions,
-    matrices: DeviceMatrices | undefined,
     wasm: StartedWasm | undefined,
   ) {
     this.#device = device;
     this.input = options.input ?? 'hdr';
     this.storage = options.storage ?? 'f16';
-    this.#maxMemory = options.maxMemory ?? 2 ** 30;
     this.#pace = new Pace(options.maxSubmitMs ?? 8);
-    this.#stages = makeStages(device, networks, this.storage);
+    this.#networks = networks;
     this.#options = options;
-    this.#matrices = matrices;
     this.#wasm = wasm;
     this.#lost = lossOf(device);
   }
@@ -78,22 +75,21 @@ export class Denoiser {
     options.signal?.throwIfAborted();
     checkOptions(options);
     const networks = readNetworks(weights, options);
-    const [matrices, wasm] = await Promise.all([matricesFor(device, options), wasmFor(device, options)]);
-    const denoiser = new Denoiser(device, networks, options, matrices, wasm);
-    await Promise.all(denoiser.#stages.map(({ kernels }) => kernels.prelude(wasm && 'f32')));
+    const wasm = await wasmFor(device, networks, options);
+    const denoiser = new Denoiser(device, networks, options, wasm);
+    if (!wasm) await denoiser.#startShaders();
     options.signal?.throwIfAborted();
     return denoiser;
   }
 
   /** Channels that the network takes: 3 (the image), 6 (and albedo) or 9 (and normal). */
   get channels(): 3 | 6 | 9 {
-    return this.#stages.at(-1)!.network.channels;
+    return this.#networks.at(-1)![1].channels;
   }
 
   /** Bytes on the GPU, and of WebAssembly's memory where that is used: weights, and what the last size needs. */
   get memoryBytes(): number {
-    const chains = (this.#chain?.bytes ?? 0) + (this.#wasmChain?.bytes ?? 0);
-    return this.#stages.reduce((sum, { kernels }) => sum + kernels.bytes, chains);
+    return [this.#shaders, this.#chain, this.#wasmChain].reduce((sum, owner) => sum + (owner?.bytes ?? 0), 0);
   }
 
   /**
@@ -151,10 +147,8 @@ export class Denoiser {
   /** Frees everything; work that is under way ends with `denoise/destroyed`. */
   destroy(): void {
     this.#destroyed = true;
-    this.#chain?.destroy();
-    this.#wasmChain?.destroy();
-    this.#chain = this.#wasmChain = undefined;
-    for (const { kernels } of this.#stages) kernels.destroy();
+    for (const owner of [this.#shaders, this.#chain, this.#wasmChain]) owner?.destroy();
+    this.#shaders = this.#chain = this.#wasmChain = undefined;
   }
 
   #expectAlive(): void {
@@ -175,7 +169,8 @@ export class Denoiser {
     if (this.#chain?.width === width && this.#chain.height === height) return this.#chain;
     this.#chain?.destroy();
     this.#chain = undefined;
-    const chain = await this.#createChain(width, height);
+    const shaders = await this.#startShaders();
+    const chain = await shaders.chain(width, height);
     if (this.#destroyed) chain.destroy();
     this.#expectAlive();
     this.#chain = chain;
@@ -188,28 +183,19 @@ export class Denoiser {
     // Shaders of another size are not of use to encode() any more.
     for (const chain of [this.#wasmChain, this.#chain]) chain?.destroy();
     this.#wasmChain = this.#chain = undefined;
-    const chain = await this.#wasm(this.#device, this.#stages, { width, height, maxMemory: this.#maxMemory });
+    const chain = await this.#wasm({ width, height, maxMemory: this.#options.maxMemory ?? 2 ** 30 });
     if (this.#destroyed) chain.destroy();
     this.#expectAlive();
     return (this.#wasmChain = chain);
   }
 
-  async #createChain(width: number, height: number): Promise<Chain> {
-    try {
-      return await Chain.create(this.#device, this.#stages, {
-        width,
-        height,
-        maxMemory: this.#maxMemory,
-        texelBytes: this.storage === 'f16' ? 8 : 16,
-        maxBinding: this.#device.limits.maxStorageBufferBindingSize,
-        shapeOf: shapesOf(this.#device, this.#options.shapeOf, this.#matrices),
-      });
-    } catch (error) {
-      if (!this.#matrices || (error as DenoiseError).code !== 'denoise/pipeline') throw error;
-      // Matrices are experimental: where a driver does not compile their kernels, threads do the work.
-      this.#matrices = undefined;
-      return this.#createChain(width, height);
-    }
+  async #startShaders(): Promise<Shaders> {
+    if (this.#shaders) return this.#shaders;
+    const { Shaders } = await import('./shaders');
+    const shaders = await Shaders.create(this.#device, this.#networks, this.#options);
+    if (this.#destroyed) shaders.destroy();
+    this.#expectAlive();
+    return (this.#shaders = shaders);
   }
 
   async #run(chain: Chain, images: DenoiseImages, { signal, onProgress }: DenoiseOptions): Promise<DenoiseResult> {

@@ -1,30 +1,17 @@
 import { STORAGE, compileKernel, filledBuffer, type BindingKind, type Kernel } from './gpu';
 import { convolutionModule } from './kernels/convolution.wgsl';
-import encode from './kernels/encode.wesl';
-import exposure from './kernels/exposure.wesl';
 import { hasMatrices, shapeName, tileOutputs } from './kernels/shapes';
 import type { Network } from './network';
 import type { DenoiserInput, DenoiserStorage } from './options';
 import { packWeights, type PackedWeights } from './pack-weights';
 import type { LayerPlan } from './plan';
-
-/** What runs before the first layer. */
-export interface Prelude {
-  readonly exposure: Kernel;
-  readonly scale: Kernel;
-  readonly encode: Kernel;
-}
+import { PreludeKernels } from './prelude-kernels';
 
 /** The shaders and weights of a network on a device, made at first use and kept. */
-export class NetworkKernels {
-  readonly #device: GPUDevice;
-  readonly #network: Network;
-  /** Gates of the shaders, by what the network takes and returns, and by the storage. */
-  readonly flags: Readonly<Record<string, boolean>>;
+export class NetworkKernels extends PreludeKernels {
   readonly #input: DenoiserInput;
   readonly #convolutions: Map<string, Promise<Kernel>>;
   readonly #weights = new Map<string, { readonly buffer: GPUBuffer; readonly packed: PackedWeights }>();
-  readonly #preludes = new Map<DenoiserStorage | undefined, Promise<Prelude>>();
 
   /** @param convolutions Shaders that networks with the same storage share. */
   constructor(
@@ -34,60 +21,14 @@ export class NetworkKernels {
     storage: DenoiserStorage,
     convolutions: Map<string, Promise<Kernel>>,
   ) {
-    this.#device = device;
-    this.#network = network;
+    super(device, network, input, storage);
     this.#input = input;
     this.#convolutions = convolutions;
-    this.flags = {
-      DENOISE_HALF: storage === 'f16',
-      DENOISE_F16: storage === 'f16' && device.features.has('shader-f16'),
-      DENOISE_HDR: input === 'hdr',
-      DENOISE_NORMAL: input === 'normal',
-      DENOISE_LINEAR: input === 'ldr' || input === 'albedo',
-      DENOISE_GUIDE_ALBEDO: network.channels >= 6,
-      DENOISE_GUIDE_NORMAL: network.channels >= 9,
-    };
   }
 
   /** Bytes of weights on the GPU. */
   get bytes(): number {
     return [...this.#weights.values()].reduce((sum, { buffer }) => sum + buffer.size, 0);
-  }
-
-  /**
-   * @param storage `f32` where it encodes in single precision whatever the layers' storage is.
-   * @throws {DenoiseError} `denoise/pipeline`.
-   */
-  prelude(storage?: 'f32'): Promise<Prelude> {
-    let prelude = this.#preludes.get(storage);
-    if (!prelude) {
-      const single = storage && { DENOISE_HALF: false, DENOISE_F16: false };
-      prelude = this.#compilePrelude({ ...this.flags, ...single });
-      this.#preludes.set(storage, prelude);
-      prelude.catch(() => this.#preludes.delete(storage));
-    }
-    return prelude;
-  }
-
-  async #compilePrelude(flags: Readonly<Record<string, boolean>>): Promise<Prelude> {
-    const bindings: Record<number, BindingKind> = {
-      0: 'uniform',
-      1: 'dynamic',
-      5: 'write',
-      6: 'dynamic',
-      7: 'read',
-      8: 'read',
-    };
-    if (this.#network.channels >= 6) bindings[3] = 'read';
-    if (this.#network.channels >= 9) bindings[4] = 'read';
-    const compile = (label: string, ...rest: readonly [Record<number, BindingKind>, string]) =>
-      compileKernel(this.#device, label, exposure, flags, ...rest);
-    const [blocks, scale, encoding] = await Promise.all([
-      compile('denoise exposure', { 2: 'write', 6: 'dynamic', 7: 'read' }, 'measure_block'),
-      compile('denoise scale', { 2: 'write', 5: 'write', 6: 'dynamic' }, 'find_scale'),
-      compileKernel(this.#device, 'denoise encode', encode, flags, bindings),
-    ]);
-    return { exposure: blocks, scale, encode: encoding };
   }
 
   /** @throws {DenoiseError} `denoise/pipeline`. */
@@ -106,7 +47,7 @@ export class NetworkKernels {
       const module = hasMatrices(shape)
         ? shape.code.convolution({ shape, pool: layer.pool })
         : convolutionModule({ shape, up, directChannels: layer.directChannels, pool: layer.pool, last });
-      kernel = compileKernel(this.#device, `denoise ${key}`, module, this.flags, bindings);
+      kernel = compileKernel(this.device, `denoise ${key}`, module, this.flags, bindings);
       this.#convolutions.set(key, kernel);
       // A failure is not kept: the next call tries again.
       kernel.catch(() => this.#convolutions.delete(key));
@@ -123,7 +64,7 @@ export class NetworkKernels {
     if (!known) {
       const packed = matrices ? matrices.code.pack(layer, multiple, matrices.matrix) : packWeights(layer, multiple);
       known = {
-        buffer: filledBuffer(this.#device, `denoise ${layer.name}`, packed.data.buffer as ArrayBuffer, STORAGE),
+        buffer: filledBuffer(this.device, `denoise ${layer.name}`, packed.data.buffer as ArrayBuffer, STORAGE),
         packed,
       };
       this.#weights.set(key, known);

@@ -2,7 +2,7 @@ import { bindGroup, type Window } from './gpu';
 import type { BoundImages } from './images';
 import type { Job } from './jobs';
 import { tileStruct } from './kernels/layouts';
-import type { Prelude } from './network-kernels';
+import type { Prelude } from './prelude-kernels';
 import type { Tile } from './tiles';
 
 /** Multiply-adds that take as long as encoding a pixel, roughly. */

@@ -3,10 +3,11 @@ import type { BoundImages } from './images';
 import type { Job } from './jobs';
 import { tileStruct } from './kernels/layouts';
 import type { TiledPlan } from './memory';
-import type { NetworkKernels, Prelude } from './network-kernels';
+import type { NetworkKernels } from './network-kernels';
 import { pauses } from './pace';
 import { ENCODE_ROWS, type Plan, type TensorWindow } from './plan';
 import { ENCODE_COST, blockBytes, exposureJobs, tileUniform } from './prelude-jobs';
+import type { Prelude } from './prelude-kernels';
 import { readyLayer, type ReadyLayer } from './ready-layer';
 import type { Tiling } from './tiles';
 

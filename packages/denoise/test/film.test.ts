@@ -39,7 +39,7 @@ async function run(
   const denoiser = await FilmDenoiser.create(
     device,
     { color: randomNetwork(9) },
-    { maxSubmitMs: 1000, storage: 'f32', ...options },
+    { maxSubmitMs: 1000, storage: 'f32', webAssembly: false, ...options },
   );
   try {
     const denoised = await denoiser.read(await denoiser.denoise(images, { blend: false }));

@@ -3,7 +3,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { compose } from '@glanz/wgsl/compose';
 import { afterEach, describe, expect, it } from 'vitest';
 import { concatenate, convolveChannel, pool, upsample, type Planes } from '../src/cpu/layers';
-import { matricesFor } from '../src/configure';
+import { matricesFor } from '../src/layer-shapes';
 import { chooseMatrices } from '../src/kernels/choose-matrices';
 import { layerStruct } from '../src/kernels/layouts';
 import { matrixConvolution } from '../src/kernels/matrix-convolution.wgsl';

@@ -1,5 +1,6 @@
-import { makeStages, type Stage } from '../chain';
-import { checkOptions, isSoftware, matricesFor, readNetworks, shapesOf } from '../configure';
+import { makeStages, type ShaderStage } from '../chain';
+import { checkOptions, isSoftware, readNetworks } from '../configure';
+import { matricesFor, shapesOf } from '../layer-shapes';
 import { DenoiseError } from '../error';
 import { ALIGNMENT, COPY_DST, UNIFORM, lossOf } from '../gpu';
 import { checkSize } from '../images';
@@ -155,7 +156,7 @@ class Tuner {
 
   /** Compiles the candidates of a layer, all at once; those that a driver refuses are left out. */
   async compile(
-    { kernels }: Stage,
+    { kernels }: ShaderStage,
     plan: LayerPlan,
     software: boolean,
     matrices: DeviceMatrices | undefined,
@@ -305,7 +306,7 @@ export async function tuneShapes(
   const tuner = new Tuner(device, clock, limit, memory.buffers, Math.min(maxSubmitMs, 12));
   const tuned: Record<string, KernelFamily> = {};
   try {
-    const layers = new Map<string, { readonly stage: Stage; readonly plan: LayerPlan }>();
+    const layers = new Map<string, { readonly stage: ShaderStage; readonly plan: LayerPlan }>();
     for (const [i, stage] of stages.entries())
       for (const plan of memory.parts[i]!.plan.layers) {
         // The last layer writes into an image, and has one shape.

@@ -1,4 +1,3 @@
-import { boundChain, type Stage } from '../chain';
 import { DenoiseError } from '../error';
 import {
   ALIGNMENT,
@@ -16,9 +15,10 @@ import {
 import type { BoundImages } from '../images';
 import { JobCursor } from '../jobs';
 import { tileStruct } from '../kernels/layouts';
-import type { Prelude } from '../network-kernels';
+import { PreludeKernels, type Prelude } from '../prelude-kernels';
 import { ENCODE_COST, blockBytes, exposureJobs, tileUniform } from '../prelude-jobs';
 import type { DenoiseImages } from '../options';
+import { boundChain, type NetworkOf, type Stage } from '../stages';
 import type { Tile } from '../tiles';
 import decode from './decode.wesl';
 import { Evaluator, type EvaluatorSize, type WasmNetwork } from './evaluator';
@@ -56,12 +56,24 @@ export interface WasmRun {
 }
 
 /** Makes chains by kernels that are compiled. */
-export type StartedWasm = (device: GPUDevice, stages: readonly Stage[], size: EvaluatorSize) => Promise<WasmChain>;
+export type StartedWasm = (size: EvaluatorSize) => Promise<WasmChain>;
 
-/** @returns `undefined` where a page's policy forbids WebAssembly, or the browser has no SIMD. */
-export async function startWasm(): Promise<StartedWasm | undefined> {
+/**
+ * Compiles what does not depend on the image size.
+ *
+ * @returns `undefined` where a page's policy forbids WebAssembly, or the browser has no SIMD.
+ * @throws {DenoiseError} `denoise/pipeline`.
+ */
+export async function startWasm(device: GPUDevice, networks: readonly NetworkOf[]): Promise<StartedWasm | undefined> {
   const module = await compileWasm();
-  return module && ((device, stages, size) => WasmChain.create(device, stages, module, size));
+  if (!module) return undefined;
+  const stages = networks.map(([input, network]) => ({
+    input,
+    network,
+    kernels: new PreludeKernels(device, network, input, 'f32'),
+  }));
+  await Promise.all(stages.map(({ kernels }) => kernels.prelude()));
+  return (size) => WasmChain.create(device, stages, module, size);
 }
 
 /** Networks that the CPU evaluates in WebAssembly, for images in GPU buffers, which the GPU encodes and decodes. */
@@ -107,7 +119,7 @@ export class WasmChain {
       Evaluator.create(module, networks, size),
       Promise.all(
         stages.map(({ kernels: own }) =>
-          Promise.all([own.prelude('f32'), compileKernel(device, 'denoise decode', decode, own.flags, bindings)]),
+          Promise.all([own.prelude(), compileKernel(device, 'denoise decode', decode, own.flags, bindings)]),
         ),
       ),
     ]);
@@ -266,12 +278,9 @@ export class WasmChain {
         await Promise.race([lost, new Promise((resolve) => setTimeout(resolve, 100))]);
         throw cause;
       });
-      try {
-        onRows(rows / tiling.height);
-        this.#interleave(network, new Float32Array(staging.getMappedRange(0, bytes)), from, rows);
-      } finally {
-        staging.unmap();
-      }
+      this.#interleave(network, new Float32Array(staging.getMappedRange(0, bytes)), from, rows);
+      staging.unmap();
+      onRows(rows / tiling.height);
     }
   }
 
