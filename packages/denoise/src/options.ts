@@ -47,8 +47,8 @@ export interface DenoiserOptions {
   /**
    * Whether the CPU computes the layers, in WebAssembly, on the calling thread in slices of about 12 ms; the GPU still
    * encodes and decodes. Values between layers are in single precision, whatever `storage` says. Default: on adapters
-   * that are software (SwiftShader, lavapipe, WARP), where it takes a tenth of the time or less. A page with a content
-   * security policy allows it with `'wasm-unsafe-eval'` in `script-src`; where it is forbidden, or the browser has no
+   * that are software (SwiftShader, lavapipe, WARP); on SwiftShader it takes a tenth of the time or less. A page with a
+   * content security policy allows it with `'wasm-unsafe-eval'` in `script-src`; where it is forbidden, or the browser has no
    * SIMD, shaders compute as elsewhere, and {@link DenoiseResult.kernels} says so.
    */
   readonly webAssembly?: boolean;

@@ -1,13 +1,21 @@
 /** Milliseconds between two returns to the event loop. */
 const SLICE_MS = 12;
 
-/** Lets other tasks of the event loop run. Uses a timer, which costs milliseconds, only where there is no faster way. */
+/**
+ * Lets other tasks of the event loop run, all that wait: a timer would cost milliseconds, and `scheduler.yield()` comes
+ * back ahead of messages and timers, for seconds.
+ */
 function yieldToEventLoop(): Promise<void> {
-  const { scheduler, setImmediate } = globalThis as {
-    scheduler?: { yield?: () => Promise<void> };
-    setImmediate?: (done: () => void) => void;
-  };
-  return scheduler?.yield?.() ?? new Promise((resolve) => void (setImmediate ?? setTimeout)(resolve));
+  const { setImmediate } = globalThis as { setImmediate?: (done: () => void) => void };
+  return new Promise((resolve) => {
+    if (setImmediate) return setImmediate(resolve);
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => {
+      port1.close();
+      resolve();
+    };
+    port2.postMessage(0);
+  });
 }
 
 /**
