@@ -168,6 +168,34 @@ test('an abort of WebAssembly is followed by no submission', async () => {
   expect(submissions(events.slice(events.indexOf('abort')))).toEqual([]);
 });
 
+for (const [policy, kernels] of [
+  ["script-src 'self' 'wasm-unsafe-eval'", 'webAssembly'],
+  ["script-src 'self'", 'shaders'],
+] as const)
+  test(`under the policy ${policy} the software GPU's images are computed by ${kernels}`, async ({ browser }) => {
+    const strict = await servePage(fileURLToPath(new URL('page', import.meta.url)), {
+      'content-security-policy': policy,
+    });
+    const own = await browser.newPage();
+    try {
+      await own.goto(strict.origin);
+      const found = await own.evaluate(async () => {
+        const device = await (await navigator.gpu.requestAdapter())!.requestDevice();
+        const [size, usage] = [16 * 16 * 16, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC];
+        const image = () => device.createBuffer({ size, usage });
+        const denoiser = await window.filmDenoiser(device);
+        const images = { width: 16, height: 16, color: image(), albedo: image(), normal: image() };
+        const result = await denoiser.denoise(images, { blend: false });
+        device.destroy();
+        return result.kernels;
+      });
+      expect(found).toBe(kernels);
+    } finally {
+      await own.close();
+      await strict.close();
+    }
+  });
+
 test('the variance of a film is not read by the page', async () => {
   const bytes = await page.evaluate(
     async ([base64, options]) => {
