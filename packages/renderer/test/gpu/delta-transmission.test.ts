@@ -2,6 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Material, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { samplesOf } from '../full';
 import { addQuad, addSphere, camera, createScene, lambert, meanOf, middle } from '../scenes';
 
 let device: GPUDevice;
@@ -148,7 +149,8 @@ describe('smooth thin walls', () => {
         variance: values.reduce((sum, v) => sum + (v - average) ** 2, 0) / (values.length - 1) / values.length,
       };
     };
-    const [clear, blurred] = [await runs(0, 32), await runs(0.02, 256)];
+    const samples = samplesOf(16, 2);
+    const [clear, blurred] = [await runs(0, samples), await runs(0.02, 8 * samples)];
     expect(Math.abs(clear.average - blurred.average)).toBeLessThan(
       4.5 * Math.sqrt(clear.variance + blurred.variance) + 0.002 * clear.average,
     );

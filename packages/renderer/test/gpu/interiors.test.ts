@@ -185,7 +185,7 @@ describe('interiors', () => {
     const whites: Vector[] = [];
     for (let seed = 0; seed < 16; seed++) {
       const options = { maxDepth: 64, maxVolumeDepth: 1024, seed, ...inner(6) };
-      whites.push(meanOf(await image(body([1, 1, 1]), samplesOf(32, 2), options), 6, 0, 0, 6, 6) as Vector);
+      whites.push(meanOf(await image(body([1, 1, 1]), samplesOf(16, 4), options), 6, 0, 0, 6, 6) as Vector);
     }
     for (const k of [0, 1, 2] as const) {
       const mean = whites.reduce((sum, white) => sum + white[k], 0) / whites.length;

@@ -211,7 +211,7 @@ describe('many lights', () => {
         );
       return blocks(images);
     };
-    const samples = process.env['GLANZ_FULL'] === undefined ? 96 : 256;
+    const samples = process.env['GLANZ_FULL'] === undefined ? 48 : 256;
     const [tree, power] = [await runs('tree', samples), await runs('power', samples)];
     let chi = 0;
     tree.forEach(({ mean, error }, i) => (chi += (mean - power[i]!.mean) ** 2 / (error ** 2 + power[i]!.error ** 2)));

@@ -2,6 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Light, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { casesOf } from '../full';
 import { addQuad, addSphere, createScene, lambert, middle } from '../scenes';
 
 let device: GPUDevice;
@@ -57,7 +58,7 @@ const mean = (a: Float32Array) => inside.reduce((sum, i) => sum + a[i]!, 0) / in
 describe('a ball of few triangles with smooth normals', () => {
   it('is lit as one of many, without the edges of its triangles', async () => {
     const fine = await image(ball(192), { shadowTerminator: 'faceted' });
-    for (const segments of [16, 24]) {
+    for (const segments of casesOf(24, 16)) {
       const smooth = await image(ball(segments), { shadowTerminator: 'smooth' });
       const faceted = await image(ball(segments), { shadowTerminator: 'faceted' });
       // Its silhouette and interpolated normals still differ a little from the fine ball's.
@@ -130,7 +131,8 @@ describe('a ball of few triangles with smooth normals', () => {
     addSphere(all, 0.8, [0, 0, 0], lambert(0.8), 16);
     all.environment = { type: 'constant', radiance: [4, 4, 4] };
     // Everything without what the dark wall hides is what the wall would give.
-    const [bright, dimmed] = [await image(all, {}, 256), await image(alone, {}, 256)];
+    // All samples of the first are the same: nothing hides the environment from a convex ball.
+    const [bright, dimmed] = [await image(all, {}, 16), await image(alone, {}, 256)];
     expect(Math.abs(mean(both) - (mean(bright) - mean(dimmed)))).toBeLessThan(0.01 * mean(both));
   });
 });

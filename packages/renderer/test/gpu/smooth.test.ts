@@ -2,7 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Material, PerspectiveCamera, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer } from '../../src/index';
-import { casesOf } from '../full';
+import { casesOf, samplesOf } from '../full';
 import { addBox, addQuad, camera, createScene } from '../scenes';
 
 let device: GPUDevice;
@@ -18,6 +18,8 @@ const PIXEL = 5e-5;
 const REACH = 3;
 const RADIANCE = 3;
 const HALF = 30;
+/** Of slabs, whose bounds follow from it. */
+const SAMPLES = samplesOf(128, 4);
 
 /** Sees the origin from `far` metres, at a cosine to +z, from the side of +x; the image's top is towards −x. */
 function view(cosine: number, far: number): PerspectiveCamera {
@@ -107,12 +109,12 @@ describe('smooth surfaces show edges as sharp as they are', () => {
     addBox(scene, [-HALF, -HALF, -0.5], [HALF, HALF, 0], glass(ior));
     const { reflected: r, inner } = fresnel(ior, cosine);
     addEmitter(scene, -0.5 * tangent(inner) - 0.5 * tangent(cosine), -1, false);
-    const { above, below } = await sides(scene, view(cosine, 2), 512);
+    const { above, below } = await sides(scene, view(cosine, 2), SAMPLES);
     const once = (1 - r) ** 2;
     const more = (once * r * r) / (1 - r * r);
     const mean = (rows: readonly number[]) => rows.reduce((sum, row) => sum + row, 0) / rows.length;
     // Five standard errors of a Bernoulli variable.
-    const count = above.length * SIZE * 512;
+    const count = above.length * SIZE * SAMPLES;
     const slack = (p: number) => 5 * Math.sqrt((p * (1 - p)) / count);
     expect(Math.abs(mean(above) - once - more)).toBeLessThan(slack(once + more));
     expect(Math.abs(mean(below) - more)).toBeLessThan(slack(more));
@@ -124,10 +126,10 @@ describe('smooth surfaces show edges as sharp as they are', () => {
     addBox(scene, [-HALF, -HALF, -0.5], [HALF, HALF, 0], glass(1.5));
     const { reflected: r } = fresnel(1.5, 0.01);
     addEmitter(scene, -0.05 * tangent(0.01), 0.05, true);
-    const { above, below } = await sides(scene, view(0.01, 10), 512);
+    const { above, below } = await sides(scene, view(0.01, 10), SAMPLES);
     const more = ((1 - r) ** 2 * r) / (1 - r * r);
     const mean = (rows: readonly number[]) => rows.reduce((sum, row) => sum + row, 0) / rows.length;
-    const count = above.length * SIZE * 512;
+    const count = above.length * SIZE * SAMPLES;
     const slack = (p: number) => 5 * Math.sqrt((p * (1 - p)) / count);
     expect(Math.abs(mean(above) - r - more)).toBeLessThan(slack(r + more));
     expect(Math.abs(mean(below) - more)).toBeLessThan(slack(more));
