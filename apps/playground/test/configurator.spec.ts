@@ -26,7 +26,7 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-async function open(page: Page, code = '', query = 'level=low&scale=0.25&samples=6&max-depth=3'): Promise<void> {
+async function open(page: Page, code = '', query = 'level=low&scale=0.125&samples=6&max-depth=3'): Promise<void> {
   await page.goto(plain(`${origin}/configurator.html?${query}${code}`));
   await expect(page.locator('#stage')).toHaveAttribute('data-ready', '');
   await done(page);

@@ -25,7 +25,7 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&max-depth=2') =>
+const open = (page: Page, query = 'model=cornell-box&scale=0.125&samples=2&max-depth=2') =>
   openAt(page, `${origin}/?${query}`);
 
 /** Mean of a small piece of the image. */
@@ -145,7 +145,7 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
 test('while the user turns the model a small preview keeps up on the same canvas; the image in full takes over, and ends the same', async ({
   page,
 }) => {
-  await open(page, 'model=cornell-box&scale=0.25&samples=8&max-depth=3');
+  await open(page, 'model=cornell-box&scale=0.125&samples=4&max-depth=3');
   await finished(page);
   const before = await photograph(imageOf(page));
   const [width, canvas] = await imageOf(page).evaluate(

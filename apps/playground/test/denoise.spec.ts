@@ -53,7 +53,7 @@ async function noise(page: Page, image?: Buffer): Promise<number> {
 test('images of few samples are denoised, on the screen and in PNG files, until that is switched off', async ({
   page,
 }) => {
-  await openAt(page, `${origin}/?model=cornell-box&scale=0.25&samples=4&max-depth=3&denoise=on`);
+  await openAt(page, `${origin}/?model=cornell-box&scale=0.125&samples=4&max-depth=3&denoise=on`);
   await expectDenoised(page, true);
   const denoised = await noise(page);
   const look = async (name: string) => {
@@ -95,7 +95,7 @@ test('images of few samples are denoised, on the screen and in PNG files, until 
 test('the configurator denoises its image', async ({ page }) => {
   // By the same engine as above.
   test.skip(process.env['GLANZ_FULL'] === undefined, 'with --full');
-  await page.goto(`${origin}/configurator.html?level=low&scale=0.25&samples=4&max-depth=3`);
+  await page.goto(`${origin}/configurator.html?level=low&scale=0.125&samples=4&max-depth=3`);
   await expect(imageOf(page)).toHaveAttribute('data-denoised', 'true');
   await finished(page);
   expect(await dataOf(page, 'denoised')).toBe('true');

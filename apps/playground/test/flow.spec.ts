@@ -31,7 +31,7 @@ let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&max-depth=3', hash = '') =>
+const open = (page: Page, query = 'model=cornell-box&scale=0.125&samples=2&max-depth=3', hash = '') =>
   openAt(page, `${origin}/?${query}${hash}`);
 
 /** Two sails, the left one with a red look; a third node is a little one behind. */
@@ -236,7 +236,7 @@ test('the address holds the view: a reload brings back camera, material, light a
 
   // A damaged link is ignored.
   await page.goto('about:blank');
-  await open(page, 'model=cornell-box&scale=0.25&samples=2&max-depth=2', '#v1.spoiled');
+  await open(page, 'model=cornell-box&scale=0.125&samples=2&max-depth=2', '#v1.spoiled');
   await finished(page);
   await expect(page.locator('[role=alert]')).toHaveCount(0);
 
@@ -259,7 +259,7 @@ test('the address holds the view: a reload brings back camera, material, light a
   await page.goto('about:blank');
   await open(
     page,
-    'model=cornell-box&scale=0.25&samples=2&max-depth=2',
+    'model=cornell-box&scale=0.125&samples=2&max-depth=2',
     `#v1.${deflateRawSync(JSON.stringify({ m: 'cornell-box', s: absurd })).toString('base64url')}`,
   );
   await finished(page);

@@ -7,7 +7,7 @@ let page: Page;
 
 onePage(
   { width: 1200, height: 700 },
-  'model=cornell-box&scale=0.125&samples=8&max-depth=2',
+  'model=cornell-box&scale=0.125&samples=4&max-depth=2',
   (opened) => void (page = opened),
 );
 

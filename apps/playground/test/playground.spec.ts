@@ -32,14 +32,14 @@ let close: () => Promise<void> = async () => undefined;
 test.beforeAll(async () => ({ origin, folder, close } = await servePlayground()));
 test.afterAll(() => close());
 
-// Small, as the software GPU is slow: the stage is 560 pixels wide and the film 140.
+// Small, as the software GPU is slow: the stage is 560 pixels wide and the film 70.
 test.use({ viewport: { width: 900, height: 560 } });
 
 let complaints: string[] = [];
 test.beforeEach(({ page }) => void (complaints = watch(page, origin)));
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const open = (page: Page, query = 'model=cornell-box&scale=0.25&samples=2&max-depth=3') =>
+const open = (page: Page, query = 'model=cornell-box&scale=0.125&samples=2&max-depth=3') =>
   openAt(page, `${origin}/?${query}`);
 
 test('a model of another address is shown; one that is missing is reported, and the push-button is shown', async ({
@@ -49,12 +49,12 @@ test('a model of another address is shown; one that is missing is reported, and 
   const { sceneToGlb } = await import('@glanz/models/gltf');
   const body = Buffer.from(await sceneToGlb(createCornellBox()));
   await page.route('**/models/box.glb', (route) => route.fulfill({ body }));
-  await open(page, 'model=models/box.glb&environment=none&scale=0.25&samples=2&max-depth=3');
+  await open(page, 'model=models/box.glb&environment=none&scale=0.125&samples=2&max-depth=3');
   expect(await dataOf(page, 'scene')).toBe('box.glb');
   await finished(page);
 
   await page.route('**/models/gone.glb', (route) => route.fulfill({ status: 404 }));
-  await open(page, 'model=models/gone.glb&scale=0.25&samples=1&max-depth=2');
+  await open(page, 'model=models/gone.glb&scale=0.125&samples=1&max-depth=2');
   await expect(errorWith(page, 'playground/model-address')).toContainText('the server responded with status 404');
   expect(await dataOf(page, 'sample')).toBe('push-button');
   complaints = complaints.filter((text) => !text.includes('404'));
@@ -191,7 +191,7 @@ test('the first script is small, and controls come after the first model', async
   expect(bytes).toBeLessThan(12_000);
   const asked: string[] = [];
   page.on('request', (request) => asked.push(request.url()));
-  await open(page, 'model=cornell-box&scale=0.25&samples=4&max-depth=3&denoise=on');
+  await open(page, 'model=cornell-box&scale=0.125&samples=4&max-depth=3&denoise=on');
   const at = (name: RegExp) => asked.findIndex((url) => name.test(url));
   // The denoiser comes last.
   const denoiser = /\/denoise-[^/]+\.js$/;
@@ -436,7 +436,7 @@ test.describe('one page', () => {
 });
 
 test('pause holds, and still shows a sample after a move', async ({ page }) => {
-  await open(page, 'model=cornell-box&scale=0.25&samples=4096&max-depth=2');
+  await open(page, 'model=cornell-box&scale=0.125&samples=4096&max-depth=2');
   await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
   await page.getByRole('button', { name: 'Pause' }).click();
   await expect(canvasOf(page)).toHaveAttribute('data-state', 'paused');
@@ -500,7 +500,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
   );
   const link = await page.evaluate(() => navigator.clipboard.readText());
   await page.goto('about:blank');
-  await openAt(page, `${origin}/?model=cornell-box&scale=0.25&samples=2${new URL(link).hash}`);
+  await openAt(page, `${origin}/?model=cornell-box&scale=0.125&samples=2${new URL(link).hash}`);
   await expect(page.locator('[data-code="playground/link-file"]')).toContainText(
     'created with the environment "red room.hdr"',
   );
@@ -534,7 +534,7 @@ test('a lost device is replaced, and edits survive it', async ({ page }) => {
 });
 
 test('the push-button, and depth as one goes', async ({ page }) => {
-  await open(page, 'model=push-button-low&scale=0.25&samples=4&max-depth=2');
+  await open(page, 'model=push-button-low&scale=0.125&samples=4&max-depth=2');
   await finished(page);
   await expect(page.locator('[data-statistic=triangles]')).toHaveText(/^10,[5-9]\d\d$/);
   await tab(page, 'Render');
@@ -558,7 +558,7 @@ test('the push-button, and depth as one goes', async ({ page }) => {
 
 test('every control has a name, and a phone shows the page without scrolling sideways', async ({ page }) => {
   await page.setViewportSize({ width: 390, height: 780 });
-  await open(page, 'model=cornell-box&scale=0.25&samples=1&max-depth=2');
+  await open(page, 'model=cornell-box&scale=0.125&samples=1&max-depth=2');
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll<HTMLInputElement>('button, input, select, progress')]
       .filter((control) => !control.textContent?.trim() || control.tagName === 'SELECT')
@@ -601,7 +601,7 @@ test('without a GPU the page says so before its scripts are there; when one come
       return ++asked === 1 ? null : requestAdapter.apply(this, given);
     };
   });
-  await page.goto(plain(`${origin}/?model=cornell-box&scale=0.25&samples=1&max-depth=2`));
+  await page.goto(plain(`${origin}/?model=cornell-box&scale=0.125&samples=1&max-depth=2`));
   await expect(page.getByRole('heading', { name: 'The GPU cannot be used' })).toBeVisible();
   await expect(errorWith(page, 'renderer/no-adapter')).toBeVisible();
   await expect(page.locator('#preparing')).toBeHidden();

@@ -16,6 +16,9 @@ const root = fileURLToPath(new URL('../../..', import.meta.url))
 const { config } = ts.readConfigFile(`${root}/tsconfig.base.json`, ts.sys.readFile);
 const { options } = ts.convertCompilerOptionsFromJson(config.compilerOptions, root);
 
+/** Files that a program before has parsed: that took most of the time, and all programs have the same options. */
+const parsed = new Map<string, ts.SourceFile | undefined>();
+
 /** What TypeScript has to say of programs that lie in the playground's test folder, or as such a file. */
 function complaints(...programs: string[]): string[] {
   return complaintsAs('apps/playground/test/snippet-#.mts', programs);
@@ -28,8 +31,13 @@ function complaintsAs(file: string, programs: readonly string[]): string[] {
   const text = (name: string) => programs[names.indexOf(name)];
   host.fileExists = (name) => text(name) !== undefined || fileExists(name);
   host.readFile = (name) => text(name) ?? readFile(name);
-  host.getSourceFile = (name, target) =>
-    text(name) === undefined ? getSourceFile(name, target) : ts.createSourceFile(name, text(name)!, target);
+  host.getSourceFile = (name, settings) => {
+    const own = text(name);
+    if (own !== undefined) return ts.createSourceFile(name, own, settings);
+    const key = `${name} ${typeof settings === 'object' ? settings.impliedNodeFormat : ''}`;
+    if (!parsed.has(key)) parsed.set(key, getSourceFile(name, settings));
+    return parsed.get(key);
+  };
   const program = ts.createProgram(
     names,
     {
