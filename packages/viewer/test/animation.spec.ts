@@ -40,7 +40,7 @@ test('an animation plays in previews, and the pose that it ends in is rendered t
   const frames = events.filter(({ type }) => type === 'frame');
   expect(frames.some(({ preview }) => preview === true)).toBe(true);
   expect(frames.at(-1)!['preview']).toBe(false);
-  expect(events.findLast(({ type }) => type === 'converged')).toMatchObject({ samples: 12 });
+  expect(events.findLast(({ type }) => type === 'converged')).toMatchObject({ samples: 6 });
   // The loop sleeps: nothing moves any more.
   expect(await page.evaluate(() => window.viewer.state)).toBe('done');
 

@@ -59,7 +59,7 @@ export async function open(page: Page, origin: string, options: ViewerOptions = 
     },
     [
       bytes.toString('base64'),
-      { samples: 12, maxDepth: 3, pixelRatio: 0.25, camera: front, environment: sky, ...options },
+      { samples: 6, maxDepth: 3, pixelRatio: 0.25, camera: front, environment: sky, ...options },
     ] as const,
   );
   if (options.samples === undefined || options.samples < 100) await done(page);

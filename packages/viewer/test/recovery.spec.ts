@@ -203,17 +203,17 @@ test('samples outlive a lost GPU: a finished image is the same to the last bit a
   await copied(page);
   const before = await film(page);
   for (const _ of [1, 2]) {
-    expect(await lose(page)).toMatchObject({ samples: 12, lostSamples: 0 });
+    expect(await lose(page)).toMatchObject({ samples: 6, lostSamples: 0 });
     await done(page);
     expect(await film(page)).toBe(before);
     expect(await heard(page, 'sample')).toEqual([]);
   }
-  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(12);
+  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(6);
   // More of them continue from there: the same as without a loss.
-  await page.evaluate(() => void (window.viewer.samples = 20));
-  await expect.poll(async () => (await heard(page, 'sample')).at(-1)?.['samples']).toBe(20);
+  await page.evaluate(() => void (window.viewer.samples = 10));
+  await expect.poll(async () => (await heard(page, 'sample')).at(-1)?.['samples']).toBe(10);
   await done(page);
-  expect((await heard(page, 'sample')).every((event) => (event['samples'] as number) > 12)).toBe(true);
+  expect((await heard(page, 'sample')).every((event) => (event['samples'] as number) > 6)).toBe(true);
   const resumed = await film(page);
   await page.evaluate(() => window.viewer.tracer!.reset());
   await page.evaluate(() => window.viewer.edit(() => undefined));
@@ -250,7 +250,7 @@ test('an image that is being rendered continues from its last copy; without a co
   await page.evaluate(() => window.viewer.destroy());
   await open(page, served.origin, { keepSamples: false });
   await copied(page);
-  expect(await lose(page)).toMatchObject({ samples: 0, lostSamples: 12 });
+  expect(await lose(page)).toMatchObject({ samples: 0, lostSamples: 6 });
   await done(page);
   expect(await heard(page, 'error')).toEqual([]);
 });
@@ -275,7 +275,7 @@ test('without memory for a larger film the image stays as large as it can, with 
     window.viewer.sampleCount,
   ]);
   expect(size[0]).toBeLessThan(160);
-  expect(size[2]).toBe(12);
+  expect(size[2]).toBe(6);
   expect(size[0]! / size[1]!).toBeCloseTo(1.6, 1);
   const { cells } = await shot(page);
   expect(cells[3]![0]).toBeGreaterThan(2 * cells[3]![1]);
@@ -311,7 +311,7 @@ test('a film that had to be smaller takes the whole size, and its shape, once th
     .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
     .toEqual([110, 110]);
   await done(page);
-  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(12);
+  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(6);
   const { cells } = await shot(page);
   expect(cells[3]![0]).toBeGreaterThan(2 * cells[3]![1]);
   expect(await heard(page, 'error')).toHaveLength(1);

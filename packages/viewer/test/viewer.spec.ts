@@ -27,9 +27,9 @@ test('a model appears as it is, events report it, and the view is the one asked 
   const types = await page.evaluate(() => window.heard.map(({ type }) => type));
   expect(types.indexOf('load')).toBeLessThan(types.indexOf('sample'));
   const samples = (await heard(page, 'sample')).map((event) => event['samples'] as number);
-  expect(samples.at(-1)).toBe(12);
+  expect(samples.at(-1)).toBe(6);
   expect(samples).toEqual([...samples].sort((a, b) => a - b));
-  expect(await heard(page, 'converged')).toEqual([expect.objectContaining({ samples: 12 })]);
+  expect(await heard(page, 'converged')).toEqual([expect.objectContaining({ samples: 6 })]);
   const totals = (await heard(page, 'progress')).map((event) => event['total'] as number);
   expect(Math.max(...totals)).toBe(1);
   expect(await heard(page, 'error')).toEqual([]);
@@ -53,7 +53,7 @@ test('warms up until there is a model, where that is asked for or the adapter is
   for (const warmUp of [undefined, true]) {
     await page.goto(served.origin);
     await page.evaluate((options) => void (window.viewer = window.make(options)), {
-      samples: 12,
+      samples: 6,
       maxDepth: 3,
       pixelRatio: 0.25,
       camera: front,
@@ -511,7 +511,7 @@ async function saveAtOtherSizes(page: Page): Promise<void> {
     noise: { size: [32, 20] },
     aborted: 'Error: enough',
     refused: Array<string>(5).fill('viewer/option'),
-    after: [4, 'done'],
+    after: [2, 'done'],
     same: true,
     paused: [64, 40],
   });
@@ -521,10 +521,10 @@ async function saveAtOtherSizes(page: Page): Promise<void> {
 }
 
 test('toBlob gives the image as a file; destroy ends everything, twice if need be', async ({ page }) => {
-  await open(page, { background: 'transparent', pixelRatio: 1, samples: 4 });
+  await open(page, { background: 'transparent', pixelRatio: 1, samples: 2 });
   const shown = await shot(page);
   const file = await page.evaluate(async () => {
-    const blob = await window.viewer.toBlob({ samples: 4 });
+    const blob = await window.viewer.toBlob({ samples: 2 });
     const bitmap = await createImageBitmap(blob);
     const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
     context.drawImage(bitmap, 0, 0);
