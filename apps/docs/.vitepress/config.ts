@@ -1,7 +1,7 @@
 import { existsSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { defineConfig } from 'vitepress';
+import { defineConfig, type MarkdownEnv } from 'vitepress';
 import { basisModule } from '../../../tools/pipeline/basis-module.mjs';
 import { publishedModules } from '../../../tools/pipeline/published-source.mjs';
 import { weslModules } from '../../../tools/pipeline/wesl.mjs';
@@ -65,6 +65,24 @@ const searchWords = (text: string): string[] => {
   return [...text.split(/[\n\r\p{Z}\p{P}]+/u), ...dotted.map((word) => word.replaceAll('.', ''))];
 };
 
+interface Markdown {
+  readonly options: { highlight?: ((code: string, language: string, attributes: string) => string) | null | undefined };
+  render(text: string, env: MarkdownEnv): string;
+}
+
+/** A page for the index of the search, which reads no colours: to highlight code took a seventh of the build. */
+const renderForSearch = (text: string, env: MarkdownEnv, md: Markdown): string => {
+  const { options } = md;
+  const { highlight } = options;
+  options.highlight = null;
+  try {
+    const html = md.render(text, env);
+    return env.frontmatter?.['search'] === false ? '' : html;
+  } finally {
+    options.highlight = highlight;
+  }
+};
+
 /** A page of its own, not one of VitePress's: links to it load it. `npm run docs` has it not; `npm start` does. */
 const PLAYGROUND = '/playground/index.html';
 
@@ -115,7 +133,10 @@ export default defineConfig({
     logo: '/mark.svg',
     // Packages have versions of their own, on their pages; most pages come here for the viewer.
     siteTitle: `Glanz <small class="site-version" title="Version of @glanz/viewer">${packageFacts('viewer').version}</small>`,
-    search: { provider: 'local', options: { detailedView: true, miniSearch: { options: { tokenize: searchWords } } } },
+    search: {
+      provider: 'local',
+      options: { detailedView: true, miniSearch: { options: { tokenize: searchWords } }, _render: renderForSearch },
+    },
     outline: [2, 3],
     nav: [
       { text: 'Start', link: '/guide/getting-started' },

@@ -1,5 +1,6 @@
 // The playground is part of the built site: /playground/.
 import { execFile } from 'node:child_process';
+import { cp } from 'node:fs/promises';
 import { dirname, join } from 'node:path';
 import { createRequire } from 'node:module';
 import { fileURLToPath } from 'node:url';
@@ -7,8 +8,13 @@ import { promisify } from 'node:util';
 
 const playground = fileURLToPath(new URL('../../playground', import.meta.url));
 
-/** Builds the playground into a folder of the site, by the playground's own version of Vite. */
+/**
+ * Builds the playground into a folder of the site, by the playground's own version of Vite; or copies it there from the
+ * folder that GLANZ_PLAYGROUND names, where tests have built it.
+ */
 export async function buildPlayground(outDir: string): Promise<void> {
+  const built = process.env['GLANZ_PLAYGROUND'];
+  if (built) return cp(built, outDir, { recursive: true });
   const vite = dirname(createRequire(join(playground, 'package.json')).resolve('vite/package.json'));
   await promisify(execFile)(
     process.execPath,

@@ -1,5 +1,5 @@
 export { checkAccessibility } from './accessibility';
-export { serveApp, servePage, watch, type Served } from './page';
+export { buildApp, serveApp, servePage, watch, type Served } from './page';
 export { photograph, pixelsOf, type Pixels } from './pixels';
 export { glb, hdr, quads, triangle, type Quad } from './files';
 export { animatedQuads } from './animated';

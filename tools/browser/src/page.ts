@@ -94,12 +94,16 @@ export async function servePage(root: string, headers: Record<string, string> = 
   return { origin: served.origin, folder: outDir, close };
 }
 
-/** Builds an application by its own configuration, as a release would, and serves it. */
-export async function serveApp(root: string): Promise<Served> {
-  const { outDir, remove } = await builtOnce(`app ${root}`, async (outDir) => {
+/** Builds an application by its own configuration, as a release would, into a folder that `remove` deletes. */
+export const buildApp = (root: string): Promise<{ readonly outDir: string; readonly remove: () => void }> =>
+  builtOnce(`app ${root}`, async (outDir) => {
     const { build } = await import('vite');
     await build({ root, logLevel: 'error', build: { outDir, emptyOutDir: true } });
   });
+
+/** Builds an application as {@link buildApp} does, and serves it. */
+export async function serveApp(root: string): Promise<Served> {
+  const { outDir, remove } = await buildApp(root);
   const served = await serveBuilt({ root, build: { outDir } });
   const close = async () => {
     await served.close();
