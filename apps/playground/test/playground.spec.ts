@@ -209,8 +209,11 @@ test('the first script is small, and controls come after the first model', async
   };
   expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(188_800);
   expect(fetched(asked.slice(0, at(denoiser)))).toBeLessThan(209_500);
-  // After that the denoiser with its kernels, and one archive of weights.
-  expect(fetched(asked.slice(at(denoiser)))).toBeLessThan(21_000);
+  // After that the denoiser, and one archive of weights; with those comes what computes the layers, WebAssembly here.
+  const layers = /\/wasm-chain-[^/]+\.js$/;
+  await expect.poll(() => at(layers)).toBeGreaterThan(at(denoiser));
+  expect(fetched(asked.slice(at(denoiser), at(layers)))).toBeLessThan(21_000);
+  expect(fetched(asked.slice(at(denoiser)))).toBeLessThan(24_000);
   expect(asked.filter((url) => url.endsWith('.tza'))).toHaveLength(1);
   // Presets, encoders and decoders are loaded when they are needed.
   expect(

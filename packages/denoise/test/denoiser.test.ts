@@ -419,8 +419,8 @@ describe.each([false, true])('the end, with WebAssembly: %s', (webAssembly) => {
   });
 
   it('of the device is an error', async () => {
-    // A device of this test's own: no other asks for these features.
-    const lost = await testDevice({ features: [] });
+    // A device of this test's own: no other asks for these features with such limits.
+    const lost = await testDevice({ features: [], defaultLimits: webAssembly });
     const { color, albedo, normal } = randomImages(96, 96);
     const images = {
       color: upload(lost, color),
