@@ -389,7 +389,7 @@ test('the floor catches the shadow only; the blurred background is smooth, and s
 }) => {
   // As in the test of light.
   await page.setViewportSize({ width: 740, height: 340 });
-  await open(page, 'model=push-button-low&scale=1&samples=2&max-depth=2');
+  await open(page, 'model=push-button-low&scale=1&samples=1&max-depth=2');
   await finished(page);
   await tab(page, 'Light');
   await restarting(page, () => page.getByLabel('Background', { exact: true }).selectOption('blurred'));

@@ -65,7 +65,7 @@ test('the Cornell box appears: light above, red left, green right; the saved ima
 }) => {
   // One pixel of the film to one of the screen, so that they can be compared; not many of them.
   await page.setViewportSize({ width: 740, height: 340 });
-  await open(page, 'model=cornell-box&scale=1&samples=2&max-depth=3');
+  await open(page, 'model=cornell-box&scale=1&samples=1&max-depth=3');
   await expect.poll(async () => Number(await dataOf(page, 'samples'))).toBeGreaterThanOrEqual(1);
   await finished(page);
   const shown = await photograph(canvasOf(page));
