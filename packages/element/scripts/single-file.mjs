@@ -1,7 +1,7 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
-// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, arrays beyond a binding,
-// animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection,
+// only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, compact shapes, arrays beyond a
+// binding, animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection,
 // meshes that are replaced), and what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
@@ -43,7 +43,10 @@ const LATER = {
   './soft-shadows': 'glanz-viewer.soft-shadows.min.js',
   './paged/pages': 'glanz-viewer.pages.min.js',
   './paged-kernels': 'glanz-viewer.paged-kernels.min.js',
+  './compact-shapes': 'glanz-viewer.compact-shapes.min.js',
+  './compact-kernels': 'glanz-viewer.compact-kernels.min.js',
   './session/guide-training': 'glanz-viewer.guide.min.js',
+  './noise-target': 'glanz-viewer.noise-target.min.js',
   './film-kernels': 'glanz-viewer.film-kernels.min.js',
   './fit-textures': 'glanz-viewer.fit-textures.min.js',
   './fit-images': 'glanz-viewer.fit-images.min.js',
@@ -66,7 +69,10 @@ const SOURCES = {
   './soft-shadows': '../renderer/src/integrator/soft-shadows',
   './paged/pages': '../renderer/src/storage/paged/pages',
   './paged-kernels': '../renderer/src/integrator/paged-kernels',
+  './compact-shapes': '../renderer/src/geometry/compact-shapes',
+  './compact-kernels': '../renderer/src/integrator/compact-kernels',
   './session/guide-training': '../renderer/src/session/guide-training',
+  './noise-target': '../renderer/src/schedule/noise-target',
   './film-kernels': '../renderer/src/integrator/film-kernels',
   './fit-textures': '../renderer/src/scene/fit-textures',
   './fit-images': '../gltf/src/fit-images',
@@ -159,7 +165,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|noise-target|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|compact-shapes|compact-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

@@ -16,6 +16,17 @@ export interface MemoryBudget {
    * allocates anything.
    */
   readonly budgetMiB?: number;
+
+  /**
+   * MiB of shapes (hierarchies, triangles, vertex attributes) above which they are stored compactly, in about half of
+   * that; a whole number from 1 to 1,048,576, default 256, which is about 2.7 million triangles. It is decided when a
+   * tracer is created, by the meshes of its scene.
+   *
+   * Compact shapes have the same positions, and hits are the same, bit for bit. Normals and tangents of vertices are
+   * unit vectors within 0.004° and 0.008° of the given ones, and a ray reads a triangle's vertices from several places in memory.
+   * Poses of skinned meshes are computed on the CPU.
+   */
+  readonly compactAboveMiB?: number;
 }
 
 /** GPU memory by purpose, in bytes, and what one of each costs. */

@@ -8,7 +8,8 @@ import { environmentSteps, type EnvironmentData } from './environment/environmen
 import { RenderError } from './errors';
 import { aovBuffers, aovFlags } from './film/aovs';
 import { Film } from './film/film';
-import { prepareGeometry, shapeBytes, type Geometry } from './geometry/geometry';
+import type { CompactShapes } from './geometry/compact-shapes';
+import { chooseCompact, expectedShapes, prepareGeometry, shapeBytes, type Geometry } from './geometry/geometry';
 import type { HierarchyOptions } from './geometry/hierarchies';
 import { isShown } from './geometry/placement';
 import { Integrator } from './integrator/integrator';
@@ -38,6 +39,8 @@ export interface Products {
   readonly camera: Camera;
   /** Arrays that will probably be too large for buffers. */
   readonly pages: Pages | undefined;
+  /** Writes the shapes, if they are to be compact. */
+  readonly compact: CompactShapes | undefined;
   /** Textures of the scene that do not fit have lost levels. */
   readonly textures: TextureFit;
   /** What the kernels' text will probably depend on, before the shapes are known. */
@@ -109,11 +112,17 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
     },
   }),
   stage({
-    name: 'pages',
+    name: 'compact',
     needs: ['scene'],
     place: 'foreground',
+    run: ({ scene }) => chooseCompact(scene, options.memory),
+  }),
+  stage({
+    name: 'pages',
+    needs: ['scene', 'compact'],
+    place: 'foreground',
     // What cannot fit is refused here, before anything is built.
-    run: ({ scene }) => choosePages(device, shapeBytes(scene)),
+    run: ({ scene, compact }) => choosePages(device, shapeBytes(scene, expectedShapes(scene, compact))),
   }),
   stage({
     name: 'camera',
@@ -146,10 +155,10 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
   }),
   stage({
     name: 'expected',
-    needs: ['scene', 'camera', 'pages', 'textures'],
+    needs: ['scene', 'camera', 'compact', 'pages', 'textures'],
     place: 'foreground',
-    run: ({ scene, camera, pages }) =>
-      kernelFeatures(expectedFeatures(device, scene, { ...options, pages }), camera, options),
+    run: ({ scene, camera, compact, pages }) =>
+      kernelFeatures(expectedFeatures(device, scene, { ...options, compact, pages }), camera, options),
   }),
   stage({
     name: 'request',
@@ -170,12 +179,12 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
   return [
     stage({
       name: 'geometry',
-      needs: ['scene', 'pages'],
+      needs: ['scene', 'compact', 'pages'],
       place: builders.hierarchies || builders.gpu ? 'elsewhere' : 'foreground',
-      run({ scene }, { signal }) {
+      run({ scene, compact }, { signal }) {
         onProgress?.({ stage: 'bvh', done: 0 });
         const report = (done: number) => onProgress?.({ stage: 'bvh', done });
-        return prepareGeometry(scene, { ...builders, signal, onProgress: report });
+        return prepareGeometry(scene, { ...builders, compact, signal, onProgress: report });
       },
     }),
     stage({
@@ -185,7 +194,8 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
       async run({ scene, geometry, textures }, { signal }) {
         onProgress?.({ stage: 'upload', done: 0 });
         const pages = await choosePages(device, shapeBytes(scene, geometry));
-        const make = () => memory.track(() => new GpuScene(device, memory, scene, geometry, { ...options, pages }));
+        const choices = { ...options, pages, compact: geometry.compact };
+        const make = () => memory.track(() => new GpuScene(device, memory, scene, geometry, choices));
         let shapes: GpuScene | undefined;
         while (!shapes) {
           const { result, verified } = inErrorScopes(device, 'the shapes and textures of this scene', make);

@@ -4,7 +4,9 @@ import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { bindingStruct, INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../storage/layout';
 import { createYielder, buildHierarchies, trianglesOf, type HierarchyOptions } from './hierarchies';
 import type { Hierarchy, MeshRegion } from './hierarchy';
-import type { ShapeArray, ShapeBytes } from '../storage/shape-arrays';
+import type { MemoryBudget } from '../memory';
+import type { ShapeBytes, ShapeSlice } from '../storage/shape-arrays';
+import type { CompactShapes } from './compact-shapes';
 import { isShown, joinedRanges, Placement } from './placement';
 
 /** Node words: 16 a node. */
@@ -22,6 +24,10 @@ export interface Geometry {
   readonly nodeCount: number;
   /** Stored triangles of the meshes in use. */
   readonly triangleCount: number;
+  /** Bytes of the array that holds them. */
+  readonly triangleBytes: number;
+  /** Writes the shapes, where they are compact. */
+  readonly compact: CompactShapes | undefined;
   /** Words of the mesh table and of all attributes. */
   readonly attributeWords: number;
   readonly hasVertexColors: boolean;
@@ -69,21 +75,34 @@ const attributesOf = (mesh: Mesh) => [
 ];
 
 /** Words that a mesh's attributes take. */
-export function attributeWords(mesh: Mesh): number {
-  return attributesOf(mesh).reduce((sum, array) => sum + (array?.length ?? 0), 0);
-}
+export const attributeWords = (mesh: Mesh, compact?: CompactShapes): number =>
+  attributesOf(mesh).reduce((sum, array, i) => sum + wordsOf(array, i, compact), 0);
+
+/** Words that one of {@link attributesOf} takes. */
+const wordsOf = (array: ArrayLike<number> | undefined, i: number, compact?: CompactShapes) =>
+  (array?.length ?? 0) * (compact?.shares[i] ?? 1);
+
+/** Bytes of an array of triangles. @param records Of compact shapes: triangles and vertices. */
+const bytesOfTriangles = (triangles: number, records: number, compact: CompactShapes | undefined) =>
+  compact ? 16 * records : 48 * triangles;
 
 /**
  * Lays a scene's shapes out.
  *
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
-export function layOutGeometry(scene: Scene, blas: readonly (Hierarchy | undefined)[]): Geometry {
+export function layOutGeometry(
+  scene: Scene,
+  blas: readonly (Hierarchy | undefined)[],
+  compact?: CompactShapes,
+): Geometry {
   const placement = new Placement(scene, blas);
   const tlasNodes = placement.nodeCapacity;
   const regions: MeshRegion[] = [];
   let nodeCount = tlasNodes;
   let triangleCount = 0;
+  // Vertices follow all triangles.
+  let firstVertex = blas.reduce((sum, tree) => sum + (tree?.triangleIndices.length ?? 0), 0);
   let words = (scene.meshes.length * meshStruct.size) / 4;
   scene.meshes.forEach((mesh, i) => {
     const tree = blas[i];
@@ -92,12 +111,15 @@ export function layOutGeometry(scene: Scene, blas: readonly (Hierarchy | undefin
       nodes: tree?.nodeCount ?? 0,
       firstTriangle: triangleCount,
       triangles: tree?.triangleIndices.length ?? 0,
+      firstVertex,
+      vertices: tree ? mesh.positions.length / 3 : 0,
       firstWord: words,
-      words: tree ? attributeWords(mesh) : 0,
+      words: tree ? attributeWords(mesh, compact) : 0,
     };
     regions.push(region);
     nodeCount += region.nodes;
     triangleCount += region.triangles;
+    firstVertex += region.vertices;
     words += region.words;
   });
   return {
@@ -107,6 +129,8 @@ export function layOutGeometry(scene: Scene, blas: readonly (Hierarchy | undefin
     regions,
     nodeCount,
     triangleCount,
+    triangleBytes: bytesOfTriangles(triangleCount, firstVertex, compact),
+    compact,
     attributeWords: words,
     hasVertexColors: scene.meshes.some((mesh, i) => blas[i] !== undefined && mesh.colors !== undefined),
   };
@@ -118,14 +142,21 @@ export function layOutGeometry(scene: Scene, blas: readonly (Hierarchy | undefin
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
 export async function prepareGeometry(scene: Scene, options: HierarchyOptions = {}): Promise<Geometry> {
-  return layOutGeometry(scene, await prepareHierarchies(scene, options));
+  return layOutGeometry(scene, await prepareHierarchies(scene, options), options.compact);
 }
 
 /** What hierarchies will have, about, as if all meshes were visible: two triangles a node. */
-function expectedShapes({ meshes }: Scene): Pick<Geometry, 'nodeCount' | 'triangleCount' | 'attributeWords'> {
-  const triangleCount = trianglesOf(meshes);
-  const words = meshes.reduce((sum, mesh) => sum + attributeWords(mesh), 0);
-  return { nodeCount: triangleCount / 2, triangleCount, attributeWords: words };
+export function expectedShapes(
+  { meshes }: Scene,
+  compact?: CompactShapes,
+): Pick<Geometry, 'nodeCount' | 'triangleBytes' | 'attributeWords'> {
+  const triangles = trianglesOf(meshes);
+  const records = meshes.reduce((sum, { positions }) => sum + positions.length / 3, triangles);
+  return {
+    nodeCount: triangles / 2,
+    triangleBytes: bytesOfTriangles(triangles, records, compact),
+    attributeWords: meshes.reduce((sum, mesh) => sum + attributeWords(mesh, compact), 0),
+  };
 }
 
 /**
@@ -140,22 +171,25 @@ export function shapeBytes(
   const bindings = scene.materials.flatMap(({ textures = {} }) => Object.keys(textures)).length;
   return {
     nodes: 4 * geometry.nodeCount * NODE_WORDS,
-    triangles: 4 * geometry.triangleCount * TRIANGLE_WORDS,
+    triangles: geometry.triangleBytes,
     attributes: 4 * geometry.attributeWords + bindings * bindingStruct.size,
   };
+}
+
+/** Shapes of so many MiB are stored as they are read fastest; larger ones take about half. */
+const COMPACT_ABOVE_MIB = 256;
+
+/** What writes the shapes of a scene, if they are to be compact. */
+export async function chooseCompact(scene: Scene, memory?: MemoryBudget): Promise<CompactShapes | undefined> {
+  const bytes = Object.values(shapeBytes(scene)).reduce((a, b) => a + b, 0);
+  if (bytes <= (memory?.compactAboveMiB ?? COMPACT_ABOVE_MIB) * 2 ** 20) return undefined;
+  // A chunk of its own, for most scenes have no use for it.
+  return (await import('./compact-shapes')).COMPACT_SHAPES;
 }
 
 /** Bytes and triangles that are written at once: a millisecond or two of work. */
 const SLICE_BYTES = 1 << 20;
 const SLICE_TRIANGLES = 1 << 14;
-
-/** A part of one of the buffers of shapes. */
-export interface ShapeSlice {
-  readonly buffer: ShapeArray;
-  /** Where in the buffer, in bytes. */
-  readonly offset: number;
-  readonly data: ArrayBufferView<ArrayBuffer>;
-}
 
 function* slicesOf(
   buffer: ShapeSlice['buffer'],
@@ -181,26 +215,37 @@ function* slicesOf(
 export function* shapeSlices(scene: Scene, geometry: Geometry): Generator<ShapeSlice> {
   for (const { first, nodes } of geometry.placement.allNodes()) yield* slicesOf('nodes', 4 * first * NODE_WORDS, nodes);
   const records = new Uint32Array(scene.meshes.length * RECORD_WORDS);
+  const { compact } = geometry;
   scene.meshes.forEach((mesh, index) =>
-    writeRecord(records, index * RECORD_WORDS, mesh, geometry.blas[index], geometry.regions[index] as MeshRegion),
+    writeRecord(
+      records,
+      index * RECORD_WORDS,
+      mesh,
+      geometry.blas[index],
+      geometry.regions[index] as MeshRegion,
+      compact,
+    ),
   );
   yield* slicesOf('attributes', 0, records);
   for (const [index, mesh] of scene.meshes.entries())
-    yield* regionSlices(mesh, geometry.blas[index], geometry.regions[index] as MeshRegion);
+    yield* regionSlices(mesh, geometry.blas[index], geometry.regions[index] as MeshRegion, compact);
 }
 
 /** What a region of a mesh holds. */
 function* regionSlices(
   mesh: Mesh,
   tree: Hierarchy | undefined,
-  { firstNode, firstTriangle, firstWord }: MeshRegion,
+  region: MeshRegion,
+  compact: CompactShapes | undefined,
 ): Generator<ShapeSlice> {
   if (!tree) return;
+  const { firstNode, firstTriangle, firstWord } = region;
   const { positions, indices } = mesh;
   // What is on the GPU already is copied there.
   const { nodes, nodeCount, triangleIndices } = tree;
   if (nodes) yield* slicesOf('nodes', 4 * firstNode * NODE_WORDS, nodes.subarray(0, nodeCount * NODE_WORDS));
-  for (let first = 0; nodes && first < triangleIndices.length; first += SLICE_TRIANGLES) {
+  if (compact) yield* compact.slices(mesh, tree, region);
+  for (let first = 0; nodes && !compact && first < triangleIndices.length; first += SLICE_TRIANGLES) {
     const data = packTriangles(
       { triangleIndices: triangleIndices.subarray(first, first + SLICE_TRIANGLES) },
       { positions, indices },
@@ -208,10 +253,12 @@ function* regionSlices(
     yield { buffer: 'triangles', offset: 4 * (firstTriangle + first) * TRIANGLE_WORDS, data };
   }
   let word = firstWord;
-  for (const array of attributesOf(mesh)) {
-    if (!array) continue;
-    if (nodes || array !== indices) yield* slicesOf('attributes', 4 * word, array);
-    word += array.length;
+  for (const [i, array] of attributesOf(mesh).entries()) {
+    const words = wordsOf(array, i, compact);
+    if (!array || words === 0) continue;
+    if (compact && words < array.length) yield* compact.tangentSlices(4 * word, array as Float32Array);
+    else if (nodes || array !== indices) yield* slicesOf('attributes', 4 * word, array);
+    word += words;
   }
 }
 
@@ -221,11 +268,12 @@ export function* meshSlices(
   mesh: Mesh,
   tree: Hierarchy | undefined,
   region: MeshRegion,
+  compact: CompactShapes | undefined,
 ): Generator<ShapeSlice> {
   const data = new Uint32Array(RECORD_WORDS);
-  writeRecord(data, 0, mesh, tree, region);
+  writeRecord(data, 0, mesh, tree, region, compact);
   yield { buffer: 'attributes', offset: index * meshStruct.size, data };
-  yield* regionSlices(mesh, tree, region);
+  yield* regionSlices(mesh, tree, region, compact);
 }
 
 /** Slices up to so many bytes together are given as one. */
@@ -286,13 +334,15 @@ function writeRecord(
   at: number,
   mesh: Mesh,
   tree: Hierarchy | undefined,
-  { firstWord }: MeshRegion,
+  { firstWord, firstVertex }: MeshRegion,
+  compact: CompactShapes | undefined,
 ): void {
   let word = firstWord;
   attributesOf(mesh).forEach((array, i) => {
     const present = tree !== undefined && array !== undefined && array.length > 0;
-    records[at + (ATTRIBUTE_PLACES[i] as number)] = present ? word : NONE;
-    if (present) word += array.length;
+    const words = wordsOf(array, i, compact);
+    records[at + (ATTRIBUTE_PLACES[i] as number)] = present ? (words > 0 ? word : firstVertex) : NONE;
+    if (present) word += words;
   });
 }
 

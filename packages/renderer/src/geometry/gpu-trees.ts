@@ -6,6 +6,7 @@ import { DeviceError } from '../errors';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type PagedArray } from '../storage/buffers';
 import { readBuffer } from '../storage/read-buffer';
 import { uploadPace } from '../storage/upload-pace';
+import type { CompactShapes } from './compact-shapes';
 import type { GpuBuilds, Hierarchy, HierarchyOnGpu, MeshRegion } from './hierarchy';
 
 // In the same chunk: what poses rigs shares the most with it.
@@ -57,7 +58,15 @@ export interface GpuTrees {
 export async function buildOnGpu(
   { device, memory }: GpuBuilds,
   meshes: readonly Mesh[],
-  { signal, onProgress }: { readonly signal: AbortSignal; readonly onProgress: (done: number) => void },
+  {
+    signal,
+    onProgress,
+    compact,
+  }: {
+    readonly compact?: CompactShapes | undefined;
+    readonly signal: AbortSignal;
+    readonly onProgress: (done: number) => void;
+  },
 ): Promise<GpuTrees> {
   const trees: (Hierarchy | undefined)[] = [];
   const total = meshes.reduce((sum, { indices }) => sum + indices.length, 0);
@@ -105,19 +114,22 @@ export async function buildOnGpu(
           indices,
           triangleCount: mesh.indices.length / 3,
         },
-        { packTriangles: true, signal },
+        { packTriangles: !compact, signal },
       );
       temporaryBytes = Math.max(temporaryBytes, builder.memoryBytes);
-      const { nodes, triangleIndices: order, triangleCount, nodeCount, bounds } = built;
-      const triangles = built.triangles as GPUBuffer;
-      for (const buffer of [nodes, triangles, order]) memory.adopt('build result', buffer);
-      own.push(nodes, triangles, order);
+      const { nodes, triangles, triangleIndices: order, triangleCount, nodeCount, bounds } = built;
+      for (const buffer of [nodes, order, ...(triangles ? [triangles] : [])]) {
+        memory.adopt('build result', buffer);
+        own.push(buffer);
+      }
       // Lights name stored triangles, and queries on the CPU ask for them.
       const triangleIndices = new Uint32Array(await readBuffer(device, order, order.size)).subarray(0, triangleCount);
       signal.throwIfAborted();
       for (const buffer of [positions, order]) memory.release(buffer);
+      if (!triangles) memory.release(indices);
       const base = { nodeCount, triangleIndices, bounds };
-      return { ...base, gpu: onGpu({ device, memory }, mesh, base, { nodes, triangles, indices }) };
+      const left = triangles ? { nodes, triangles, indices } : { nodes };
+      return { ...base, gpu: onGpu({ device, memory }, mesh, base, left) };
     } catch (error) {
       for (const buffer of own) memory.release(buffer);
       throw error;
@@ -155,7 +167,7 @@ function onGpu(
   { device, memory }: Pick<GpuBuilds, 'device' | 'memory'>,
   mesh: Mesh,
   { triangleIndices, nodeCount, bounds }: Omit<Blas, 'nodes'>,
-  own: Readonly<Record<'nodes' | 'triangles' | 'indices', GPUBuffer>>,
+  own: { readonly nodes: GPUBuffer } & Partial<Readonly<Record<'triangles' | 'indices', GPUBuffer>>>,
 ): HierarchyOnGpu {
   let queries: Blas | undefined;
   let placed: { readonly nodes: GPUBuffer | PagedArray; readonly offset: number } | undefined;
@@ -188,14 +200,13 @@ function onGpu(
           ? to.copyFrom(encoder, from, offset, bytes)
           : encoder.copyBufferToBuffer(from, 0, to, offset, bytes);
       copy(own.nodes, nodes, NODE_BYTES * firstNode, NODE_BYTES * nodeCount);
-      copy(
-        own.triangles,
-        arrayOf('triangles'),
-        TRIANGLE_BYTES * firstTriangle,
-        TRIANGLE_BYTES * triangleIndices.length,
-      );
-      // Indices are the first of a mesh's attributes.
-      copy(own.indices, arrayOf('attributes'), WORD_BYTES * firstWord, mesh.indices.byteLength);
+      // Compact shapes are written by the CPU.
+      if (own.triangles && own.indices) {
+        const bytes = TRIANGLE_BYTES * triangleIndices.length;
+        copy(own.triangles, arrayOf('triangles'), TRIANGLE_BYTES * firstTriangle, bytes);
+        // Indices are the first of a mesh's attributes.
+        copy(own.indices, arrayOf('attributes'), WORD_BYTES * firstWord, mesh.indices.byteLength);
+      }
       device.queue.submit([encoder.finish()]);
       placed = { nodes, offset: NODE_BYTES * firstNode };
       free();

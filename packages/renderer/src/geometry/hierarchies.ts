@@ -1,5 +1,6 @@
 import { buildBlas, type Blas } from '@glanz/bvh';
 import { yieldToEventLoop, type Mesh } from '@glanz/scene';
+import type { CompactShapes } from './compact-shapes';
 import { suitsGpu, type GpuBuilds, type Hierarchy, type HierarchyBuild } from './hierarchy';
 
 /**
@@ -25,6 +26,8 @@ export interface HierarchyOptions {
   readonly hierarchies?: HierarchyBuilder | undefined;
   /** Builds large meshes on the GPU. Absent: all are built on the CPU. */
   readonly gpu?: GpuBuilds | undefined;
+  /** Shapes are compact: triangles are packed later. */
+  readonly compact?: CompactShapes | undefined;
   readonly signal?: AbortSignal | undefined;
   /** 0..1, by triangles. */
   readonly onProgress?: ((done: number) => void) | undefined;
@@ -79,7 +82,7 @@ async function together<T>(outer: AbortSignal | undefined, run: (signal: AbortSi
  * the same time as the others are built on the CPU; what the GPU turns out not to have memory for is built there too.
  */
 export async function buildHierarchies(meshes: readonly Mesh[], options: HierarchyOptions): Promise<Hierarchy[]> {
-  const { gpu, onProgress, onBuilt } = options;
+  const { gpu, compact, onProgress, onBuilt } = options;
   const built: (Hierarchy | undefined)[] = [];
   const total = trianglesOf(meshes);
   const begin = performance.now();
@@ -117,7 +120,7 @@ export async function buildHierarchies(meshes: readonly Mesh[], options: Hierarc
       if (!gpu || chosen.length === 0) return;
       const some = chosen.map((i) => meshes[i] as Mesh);
       const { buildOnGpu } = await loadGpuTrees();
-      const { trees, temporaryBytes } = await buildOnGpu(gpu, some, { signal, onProgress: partOf(some) });
+      const { trees, temporaryBytes } = await buildOnGpu(gpu, some, { signal, onProgress: partOf(some), compact });
       chosen.forEach((i, n) => (built[i] = trees[n]));
       report(
         'gpu',

@@ -4,12 +4,15 @@ import { isSoftware } from '../device/software';
 import type { GpuMemory, PagedArray } from '../storage/buffers';
 import type { ShapeArray } from '../storage/shape-arrays';
 
-/** A part of the GPU's buffers that belongs to one mesh, in nodes, triangles and words. */
+/** A part of the GPU's buffers that belongs to one mesh, in nodes, triangles, vertices and words. */
 export interface MeshRegion {
   readonly firstNode: number;
   readonly nodes: number;
   readonly firstTriangle: number;
   readonly triangles: number;
+  /** Of compact shapes: its place in the array of triangles, after all of those. */
+  readonly firstVertex: number;
+  readonly vertices: number;
   readonly firstWord: number;
   readonly words: number;
 }

@@ -96,7 +96,7 @@ export class KernelCache {
 
   /** One kernel. What is not needed for the first image is loaded first. @param parts See {@link kernelSource}. */
   async kernel(name: KernelName, features: KernelFeatures, parts?: KernelParts): Promise<Kernel> {
-    if (name === 'noise' || name === 'relight' || name === 'variance')
+    if (name === 'noise' || name === 'relight' || name === 'variance' || name === 'aov' || name === 'aov_ids')
       parts = { root: (await import('./film-kernels')).FILM_KERNELS[name] };
     if (name === 'shade' && features.flags.GUIDE) parts = (await import('./guide-kernels')).GUIDED_SHADE;
     if (name === 'shade' && features.flags.SHADOW_SOFTNESS) parts = (await import('./soft-shadows')).softened(parts);
@@ -106,7 +106,8 @@ export class KernelCache {
       const { openpbrLobes } = await import('@glanz/openpbr/lobes');
       parts = { ...parts, host: [...(parts?.host ?? []), openpbrLobes] };
     }
-    const { pages } = features;
+    const { compact, pages } = features;
+    if (compact) parts = (await import('./compact-kernels')).compactKernel(parts);
     if (pages) parts = (await import('./paged-kernels')).pagedKernel(this.#device, pages, parts);
     const source = kernelSource(name, features, parts);
     return remember(this.#kernels, source.key, () => source.compile(this.#device));

@@ -11,7 +11,7 @@ const READERS: Readonly<Record<ShapeArray, WgslModule>> = { nodes, triangles, at
 
 /** The modules of `storage/` that index the arrays. */
 const ACCESSORS: ReadonlySet<string | undefined> = new Set(
-  ['nodes', 'triangles', 'attribute-heap'].map((name) => `renderer/${name}`),
+  ['nodes', 'triangles', 'attribute-heap', 'compact-triangles', 'compact-vertices'].map((name) => `renderer/${name}`),
 );
 
 /**

@@ -6,11 +6,12 @@ import { inErrorScopes, lossOr } from '../device/error-scopes';
 import type { TexturedParameterInfo } from '../materials/materials';
 import type { Sampling } from '../materials/textures';
 import advance from './advance.wesl';
-import aov from '../film/aov.wesl';
-import aovIds from '../film/aov_ids.wesl';
 import begin from './begin.wesl';
+import camera from '../camera/camera.wesl';
+import filterOffset from '../camera/filter.wesl';
 import connect from './connect.wesl';
 import { aovBuffers } from '../film/aovs';
+import pathAov from '../path/path_aov.wesl';
 import { pathLayout } from '../path/path-layout';
 import energyHost from '../materials/energy.wesl';
 import firstLight from './first_light.wesl';
@@ -29,6 +30,8 @@ import {
   type SceneBinding,
 } from '../storage/resources';
 import type { ShapeArray } from '../storage/shape-arrays';
+import instances from '../storage/instances.wesl';
+import random from '../random/random.wesl';
 import resolve from '../film/resolve.wesl';
 import shade from './shade.wesl';
 import deltaTransmission from '../materials/delta_transmission.wesl';
@@ -47,6 +50,8 @@ export interface KernelFeatures {
   readonly lightPasses: number;
   /** Arrays that lie in textures. */
   readonly pages?: readonly ShapeArray[] | undefined;
+  /** Whether shapes are compact. */
+  readonly compact?: boolean | undefined;
 }
 
 /** Kernels with these flags do what those without do, only slower: a lobe of weight 0, a filter that accepts. */
@@ -226,8 +231,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       };
     case 'aov':
       return {
-        root: aov,
-        host: [path],
+        root: FILM_KERNEL,
+        host: [path, pathAov, ...(flags.AOV_POSITION ? [camera, filterOffset, random] : [])],
         resources: [
           ...(flags.AOV_POSITION ? (['frame'] as const) : []),
           'batch',
@@ -240,8 +245,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       };
     case 'aov_ids':
       return {
-        root: aovIds,
-        host: [path],
+        root: FILM_KERNEL,
+        host: [path, pathAov, filterOffset, random, instances, flags.AOV_MOTION && camera],
         resources: [
           'frame',
           'batch',
@@ -307,6 +312,8 @@ export interface KernelSource {
 
 /** What is loaded later of a kernel's text: its entry point, more of what it calls, other resources. */
 export interface KernelParts extends Partial<Pick<KernelText, 'root' | 'host' | 'resources'>> {
+  /** Modules in place of others. */
+  readonly swap?: (module: WgslModule) => WgslModule;
   /** Bindings in place of others. */
   readonly bind?: (groups: KernelBindings) => KernelBindings;
   /** The program in place of the one that was composed, line by line. */
@@ -331,7 +338,8 @@ export function kernelSource(name: KernelName, features: KernelFeatures, parts: 
   const groups = parts.bind?.(bound) ?? bound;
   const bindings = bindingModule(name, groups, flags);
   const host = text.host.filter((module) => !!module);
-  const composed = compose([bindings, ...host, text.root], { flags });
+  const { swap = (module) => module } = parts;
+  const composed = compose([bindings, ...host, text.root].map(swap), { flags });
   const shader = { ...composed, code: parts.rewrite?.(composed) ?? composed.code };
   return {
     key: `${name}\n${shader.code}`,

@@ -151,7 +151,7 @@ export const RENDER_OPTIONS = {
   bvhBuilder: { type: 'enum', values: ['auto', 'cpu', 'gpu'], default: 'auto', effect: 'schedule' },
   pathsInFlight: { type: 'integer', range: [1, 2 ** 30], effect: 'schedule' },
   // Films of scenes whose textures it reduces differ by the sizes of their images.
-  memory: { type: 'limits', values: ['budgetMiB'], range: [1, 2 ** 20], effect: 'schedule' },
+  memory: { type: 'limits', values: ['budgetMiB', 'compactAboveMiB'], range: [1, 2 ** 20], effect: 'schedule' },
 } as const satisfies Table;
 
 /** Name of an option, as in {@link RENDER_OPTIONS}. */

@@ -98,7 +98,7 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     softRange: [4096, 4_194_304],
   },
   memory: {
-    doc: 'GPU memory that textures may take, in MiB. Beyond it they lose their largest levels, those that the image shows least first.',
+    doc: 'GPU memory in MiB: what textures may take, which lose their largest levels beyond it, those that are seen least first; and from where on shapes are stored in about half of it.',
     unit: 'MiB',
     biased: true,
   },

@@ -36,6 +36,8 @@ export interface SceneChoices {
   readonly guiding: number;
   /** Holds the arrays of shapes that are too large for buffers. */
   readonly pages?: Pages | undefined;
+  /** Writes the shapes, where they are compact. */
+  readonly compact?: unknown;
 }
 
 /** The properties of a scene that decide which kernels it needs. */
@@ -118,6 +120,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
     samplerCount: plan.samplers.length,
     lightPasses: facts.groups * (facts.catchers ? 4 : 1),
     pages: choices.pages?.names,
+    compact: !!choices.compact,
   };
 }
 

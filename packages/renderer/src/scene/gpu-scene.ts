@@ -16,7 +16,6 @@ import {
   shapeBytes,
   shapeSlices,
   type Geometry,
-  type ShapeSlice,
 } from '../geometry/geometry';
 import type { LightGroupTable } from '../lights/light-groups';
 import type { LightIds } from '../lights/light-ids';
@@ -27,7 +26,7 @@ import type { TexturePlan } from '../materials/textures';
 import type { GpuMemory, PagedArray } from '../storage/buffers';
 import { choosePages } from '../storage/choose-pages';
 import type { Pages } from '../storage/paged/pages';
-import type { ShapeArray } from '../storage/shape-arrays';
+import type { ShapeArray, ShapeSlice } from '../storage/shape-arrays';
 import { uploadEnergyTextures, type EnergyTextures } from '../materials/energy-textures';
 import { fillEnvironmentTextures, makeEnvironmentTextures } from '../environment/environment-textures';
 import { inErrorScopes, withErrorScopes } from '../device/error-scopes';

@@ -46,7 +46,7 @@ export async function replaceMesh(
   const isPosed = () => mesh.pose ?? scene.meshes[index]?.pose;
   const { poseOnGpu, discardPoser } = editor.builders.gpu && isPosed() ? await loadGpuTrees() : NO_POSES;
   const posed = await poseOnGpu?.(editor, index, mesh, (before, tree, region) =>
-    editor.gpu.writeShapes(meshSlices(index, before, tree, region)),
+    editor.gpu.writeShapes(meshSlices(index, before, tree, region, undefined)),
   ).catch((error: unknown) => {
     // The edit ends without an error, as all do that the tracer is destroyed under.
     if (editor.builders.gpu?.memory.destroyed) return NOTHING;
@@ -84,21 +84,23 @@ async function replaced(
   const tree = trees.get(mesh);
   const next = changed();
   const blas = editor.blas(next);
-  const { placement, triangleCount, hasVertexColors } = layOutGeometry(next, blas);
+  const { compact } = editor.geometry;
+  const { placement, triangleCount, hasVertexColors } = layOutGeometry(next, blas, compact);
   const fits =
     placement.nodeCapacity <= editor.geometry.tlasNodes &&
     tree &&
     tree.nodeCount <= region.nodes &&
     tree.triangleIndices.length <= region.triangles &&
-    attributeWords(mesh) <= region.words;
+    (!compact || mesh.positions.length / 3 <= region.vertices) &&
+    attributeWords(mesh, compact) <= region.words;
   if (!fits) return editor.reshape(changed);
   const geometry: Geometry = { ...editor.geometry, placement, blas, hasVertexColors, triangleCount };
   const old = trees.get(before);
   return {
     ...editor.commit(next, geometry, () => {
-      gpu.writeShapes(meshSlices(index, mesh, tree, region));
+      gpu.writeShapes(meshSlices(index, mesh, tree, region, compact));
       return gpu.updatePlacement(geometry);
     }),
-    ...(old ? { rewrite: () => gpu.writeShapes(meshSlices(index, before, old, region)) } : {}),
+    ...(old ? { rewrite: () => gpu.writeShapes(meshSlices(index, before, old, region, compact)) } : {}),
   };
 }

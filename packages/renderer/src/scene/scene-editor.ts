@@ -223,7 +223,10 @@ export class SceneEditor {
    * @internal
    */
   async build(scene: Scene, read: readonly Mesh[]): Promise<void> {
-    this.#remember(scene, await prepareHierarchies(scene, this.builders, this.blas(scene)));
+    this.#remember(
+      scene,
+      await prepareHierarchies(scene, { ...this.builders, compact: this.#geometry.compact }, this.blas(scene)),
+    );
     const load = async (mesh: Mesh) => {
       const tree = this.trees.get(mesh);
       if (tree?.gpu) this.trees.set(mesh, await tree.gpu.read());
@@ -349,7 +352,7 @@ export class SceneEditor {
       const version = this.#version;
       const next = changed();
       await this.build(next, [...this.scene.meshes, ...next.meshes]);
-      const geometry = layOutGeometry(next, this.blas(next));
+      const geometry = layOutGeometry(next, this.blas(next), this.#geometry.compact);
       const packed = await packGeometry(next, geometry);
       const pages = await this.gpu.pagesOf(next, geometry);
       if (version !== this.#version) continue;

@@ -1,7 +1,8 @@
 import { buildBlas } from '@glanz/bvh';
 import { createScene } from '@glanz/scene';
 import { expect, test } from 'vitest';
-import { joinSlices, layOutGeometry, packGeometry, shapeSlices, type ShapeSlice } from '../../src/geometry/geometry';
+import { joinSlices, layOutGeometry, packGeometry, shapeSlices } from '../../src/geometry/geometry';
+import type { ShapeSlice } from '../../src/storage/shape-arrays';
 import { addSphere } from '../scenes';
 
 const grey = { name: 'grey', parameters: {} };

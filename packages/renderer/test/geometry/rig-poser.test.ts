@@ -33,6 +33,8 @@ async function posed(rig: MeshRig, poses: readonly Pose[]) {
     nodes: base.nodeCount,
     firstTriangle: 5,
     triangles: stored,
+    firstVertex: 0,
+    vertices: 0,
     firstWord: 7,
     words: bind.indices.length + words,
   };
@@ -131,7 +133,16 @@ it('reports that its hierarchy needs a rebuild where neighbours are moved apart'
   const usage = GPUBufferUsage.COPY_DST;
   const array = memory.buffer('array', 1 << 20, usage);
   const base = buildBlas(bind);
-  const region = { firstNode: 0, nodes: 0, firstTriangle: 0, triangles: 0, firstWord: 0, words: 0 };
+  const region = {
+    firstNode: 0,
+    nodes: 0,
+    firstTriangle: 0,
+    triangles: 0,
+    firstVertex: 0,
+    vertices: 0,
+    firstWord: 0,
+    words: 0,
+  };
   for (const [by, needsRebuild] of [
     [0, false],
     [4, true],

@@ -9,8 +9,9 @@ import { buildOnGpu } from '../../src/geometry/gpu-trees';
 import { GpuMemory } from '../../src/storage/buffers';
 import { Pages } from '../../src/storage/paged/pages';
 import { readAov } from '../aovs';
+import { gallery, limited, place, SMALL } from '../gallery';
 import { poseOf, rigOf } from '../rigs';
-import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
+import { addSphere, camera, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
 beforeAll(async () => {
@@ -20,151 +21,6 @@ afterEach(() => expectNoGpuErrors());
 
 const WIDTH = 24;
 const options: PathTracerOptions = { width: WIDTH, height: WIDTH, camera, pathsInFlight: 1 << 10, maxDepth: 5 };
-
-/** What a shader can bind of a buffer, and textures of as few texels: rows of 64, layers of 16 KiB. */
-const SMALL = { maxStorageBufferBindingSize: 40 << 10, maxTextureDimension2D: 64 };
-type Limits = Partial<
-  Record<keyof typeof SMALL | 'maxTextureArrayLayers' | 'maxSampledTexturesPerShaderStage', number>
->;
-
-/** The device with lower limits, and the arrays and buffers of a scene that are made on it. */
-function limited(limits: Limits = SMALL) {
-  const live = new Map<GPUBuffer | GPUTexture, string>();
-  const tracked = <T extends GPUBuffer | GPUTexture>(label: string, resource: T): T => {
-    live.set(resource, label);
-    const destroy = resource.destroy.bind(resource);
-    return Object.assign(resource, {
-      destroy: () => {
-        live.delete(resource);
-        destroy();
-      },
-    });
-  };
-  const all = new Proxy(device.limits, {
-    get: (target, name) => (limits as Record<string | symbol, number>)[name] ?? (Reflect.get(target, name) as number),
-  });
-  const proxy = new Proxy(device, {
-    get(target, name) {
-      if (name === 'limits') return all;
-      if (name === 'createBuffer')
-        return (of: GPUBufferDescriptor) => tracked(`buffer ${of.label ?? ''}`, target.createBuffer(of));
-      if (name === 'createTexture')
-        return (of: GPUTextureDescriptor) => tracked(`texture ${of.label ?? ''}`, target.createTexture(of));
-      const value = Reflect.get(target, name) as unknown;
-      return typeof value === 'function' ? (value as () => unknown).bind(target) : value;
-    },
-  });
-  const shapes = () =>
-    [...live.values()]
-      .filter((label) => /glanz (nodes|triangles|attributes)$/.test(label))
-      .map((label) => label.replace('glanz ', ''))
-      .sort();
-  return { device: proxy, live, shapes };
-}
-
-/** Texture coordinates, tangents and colours for a sphere: numbers that differ at each vertex. */
-function withAttributes(mesh: Mesh): Mesh {
-  const normals = mesh.normals as Float32Array;
-  const count = normals.length / 3;
-  const uv = new Float32Array(2 * count);
-  const tangents = new Float32Array(4 * count);
-  const colors = new Float32Array(4 * count);
-  for (let i = 0; i < count; i++) {
-    const [x, y, z] = [0, 1, 2].map((k) => normals[3 * i + k]!) as [number, number, number];
-    uv.set([2 * Math.atan2(z, x), 3 * y], 2 * i);
-    const length = Math.hypot(x, z) || 1;
-    tangents.set([-z / length, 0, x / length, i % 2 ? 1 : -1], 4 * i);
-    colors.set([0.5 + 0.5 * x, 0.5 + 0.5 * y, 0.5 + 0.5 * z, 0.6 + 0.4 * Math.abs(y)], 4 * i);
-  }
-  return { ...mesh, uvs: [uv, uv.map((value) => 1 - value)], tangents, colors };
-}
-
-function addTexture(scene: Scene, name: string, texel: (x: number, y: number) => readonly number[]): number {
-  const data = Array.from({ length: 64 }, (_, i) => texel(i % 8, i >> 3)).flat();
-  const image = scene.images.push({ name, width: 8, height: 8, data: new Float32Array(data) }) - 1;
-  return scene.textures.push({ image, color_space: 'linear' }) - 1;
-}
-
-const place = (x: number, y: number, z: number, scale = 1, mirrored = false) => [
-  mirrored ? -scale : scale,
-  0,
-  0,
-  0,
-  0,
-  scale,
-  0,
-  0,
-  0,
-  0,
-  scale,
-  0,
-  x,
-  y,
-  z,
-  1,
-];
-
-/**
- * All that shaders read of shapes: a floor; a ball with normals, two sets of texture coordinates, tangents and colours
- * that let light pass, three times, once mirrored; glass; a cut-out before them; a light of triangles; a hidden ball.
- */
-function gallery(segments = 40): Scene {
-  const scene = createScene();
-  addQuad(scene, 0.9, -0.4, { ...lambert(0.6, 0.5, 0.4), name: 'floor' });
-  const normal = addTexture(scene, 'bumps', (x, y) => [0.5 + 0.2 * Math.sin(x), 0.5 + 0.2 * Math.cos(y), 0.9, 1]);
-  const stripes = addTexture(scene, 'stripes', (x, y) => [x / 8, y / 8, 0.5, (x + y) % 2]);
-  addSphere(
-    scene,
-    0.3,
-    [0, 0, 0],
-    {
-      name: 'paint',
-      parameters: { specular_roughness: 0.4, specular_roughness_anisotropy: 0.7 },
-      textures: {
-        base_color: { texture: stripes, channels: 'rgb' },
-        specular_roughness: { texture: stripes, channels: 'g', uv: 1 },
-        geometry_normal: { texture: normal, channels: 'rgb' },
-      },
-    },
-    segments,
-  );
-  scene.meshes[1] = withAttributes(scene.meshes[1] as Mesh);
-  const ball = scene.instances[1] as Instance;
-  Object.assign(ball, { name: 'ball', transform: place(-0.35, 0.3, 0) });
-  scene.instances.push(
-    { ...ball, name: 'mirrored', transform: place(0.35, 0.3, 0.1, 1, true) },
-    { ...ball, name: 'small', transform: place(0, -0.5, 0.3, 0.5) },
-  );
-  addSphere(
-    scene,
-    0.2,
-    [0.4, -0.4, 0.3],
-    {
-      name: 'glass',
-      parameters: { transmission_weight: 1, transmission_color: [0.8, 0.9, 1], transmission_depth: 0.2 },
-    },
-    segments / 2,
-  );
-  addSphere(
-    scene,
-    0.1,
-    [0, 0.7, 0.4],
-    { name: 'light', parameters: { base_weight: 0, specular_weight: 0, emission_luminance: 20 } },
-    12,
-  );
-  addSphere(scene, 0.2, [-0.5, -0.5, 0.2], { ...lambert(0.9), name: 'late' }, segments);
-  Object.assign(scene.instances.at(-1) as object, { name: 'late', visible: false });
-  // The last of all: what is read of it lies in the last rows.
-  const cutOut = addQuad(scene, 0.6, 0.6, {
-    name: 'cut-out',
-    parameters: { base_color: [0.2, 0.4, 0.2] },
-    opacity_threshold: 0.5,
-    textures: { geometry_opacity: { texture: stripes, channels: 'a' } },
-  });
-  Object.assign(scene.instances.at(-1) as object, { name: 'cut-out', material: cutOut });
-  scene.environment = { type: 'constant', radiance: [0.3, 0.4, 0.5] };
-  return scene;
-}
 
 async function film(tracer: PathTracer, samples = 4) {
   for await (const _ of tracer.render({ samples, maxSubmitMs: 1000 }));
@@ -188,7 +44,7 @@ const moved = (scene: Scene, name: string, change: Partial<Instance>): Scene => 
 describe('arrays larger than a binding', () => {
   it('lie in textures, and give the film, the AOVs and the picks of buffers bit for bit', async () => {
     const scene = gallery();
-    const { device: small, shapes, live } = limited();
+    const { device: small, shapes, live } = limited(device);
     const aovs = ['normal', 'objectId'] as const;
     const make = (on: GPUDevice) => PathTracer.create(on, scene, { ...options, aovs });
     const [paged, plain] = await Promise.all([make(small), make(device)]);
@@ -220,7 +76,7 @@ describe('arrays larger than a binding', () => {
     let scene = balls();
     for (const [i, instance] of scene.instances.entries())
       Object.assign(instance, { name: `ball ${i}`, visible: i !== 8 });
-    const { device: small, shapes, live } = limited();
+    const { device: small, shapes, live } = limited(device);
     const tracer = await PathTracer.create(small, scene, options);
     const check = async () => {
       expect(shapes()).toEqual(['texture attributes', 'texture nodes', 'texture triangles']);
@@ -249,7 +105,7 @@ describe('arrays larger than a binding', () => {
 
   it('take hierarchies that were built on the GPU, and give them back for edits', async () => {
     const scene = balls();
-    const { device: small, shapes } = limited();
+    const { device: small, shapes } = limited(device);
     const tracer = await PathTracer.create(small, scene, { ...options, bvhBuilder: 'gpu' });
     expect(tracer.statistics.builds).toEqual([expect.objectContaining({ where: 'gpu', meshes: 9 })]);
     expect(shapes()).toEqual(['texture attributes', 'texture nodes', 'texture triangles']);
@@ -264,7 +120,7 @@ describe('arrays larger than a binding', () => {
 
   it('are read back as they were when that was asked for, whatever is written meanwhile', async () => {
     const scene = balls();
-    const { device: small } = limited();
+    const { device: small } = limited(device);
     const memory = new GpuMemory(small);
     const signal = new AbortController().signal;
     const builds = { device: small, memory, minTriangles: 1 };
@@ -275,7 +131,16 @@ describe('arrays larger than a binding', () => {
     };
     const { nodes: expected, nodeCount } = await (await build()).read();
     const placed = await build();
-    const region = { firstNode: 1, nodes: nodeCount, firstTriangle: 0, triangles: 0, firstWord: 0, words: 0 };
+    const region = {
+      firstNode: 1,
+      nodes: nodeCount,
+      firstTriangle: 0,
+      triangles: 0,
+      firstVertex: 0,
+      vertices: 0,
+      firstWord: 0,
+      words: 0,
+    };
     const bytes = { nodes: 64 * (nodeCount + 1), triangles: 1 << 20, attributes: 1 << 20 };
     const pages = new Pages(small, bytes, 16, DeviceError);
     const arrays = {
@@ -297,7 +162,7 @@ describe('arrays larger than a binding', () => {
     scene.meshes.push(rig.bind);
     scene.instances.push({ ...(scene.instances[0] as Instance), name: 'body', mesh: 1 });
     scene.environment = { type: 'constant', radiance: [0.5, 0.6, 0.7] };
-    const { device: small, shapes } = limited();
+    const { device: small, shapes } = limited(device);
     const images = await Promise.all(
       [small, device].map(async (on) => {
         const tracer = await PathTracer.create(on, scene, { ...options, bvhBuilder: 'gpu' });
@@ -322,7 +187,7 @@ describe('arrays larger than a binding', () => {
       [third![1], []],
     ] as const) {
       const maxStorageBufferBindingSize = 16 * Math.ceil(limit / 16);
-      const { device: small, shapes } = limited({ ...SMALL, maxStorageBufferBindingSize });
+      const { device: small, shapes } = limited(device, { ...SMALL, maxStorageBufferBindingSize });
       const tracer = await PathTracer.create(small, scene, options);
       const kinds = ['nodes', 'triangles', 'attributes'].map(
         (name) => `${(large as readonly string[]).includes(name) ? 'texture' : 'buffer'} ${name}`,
@@ -335,7 +200,7 @@ describe('arrays larger than a binding', () => {
 
   it('are refused before anything is made where textures do not hold them, with the numbers', async () => {
     const made: string[] = [];
-    const { device: small } = limited({ ...SMALL, maxTextureArrayLayers: 2 });
+    const { device: small } = limited(device, { ...SMALL, maxTextureArrayLayers: 2 });
     const watched = new Proxy(small, {
       get(target, name) {
         const value = Reflect.get(target, name) as unknown;
@@ -369,7 +234,7 @@ describe('arrays larger than a binding', () => {
 
   it('grow out of buffers in an edit, also while a render runs, and shrink in textures', async () => {
     const { scene, mesh, grown } = growing();
-    const { device: small, shapes, live } = limited();
+    const { device: small, shapes, live } = limited(device);
     const aovs = ['normal', 'objectId'] as const;
     const tracer = await PathTracer.create(small, scene, { ...options, aovs });
     expect(shapes()).toEqual(BUFFERS);
@@ -409,7 +274,7 @@ describe('arrays larger than a binding', () => {
     const bytes = shapeBytes(grown, await prepareGeometry(grown));
     const maxStorageBufferBindingSize = 16 * Math.ceil(Math.max(bytes.nodes, bytes.attributes) / 16);
     expect(bytes.triangles).toBeGreaterThan(maxStorageBufferBindingSize);
-    const { device: small, shapes } = limited({ ...SMALL, maxStorageBufferBindingSize });
+    const { device: small, shapes } = limited(device, { ...SMALL, maxStorageBufferBindingSize });
     const tracer = await PathTracer.create(small, scene, options);
     const turned = place(0.2, 0, 0, 0.9);
     await Promise.all([
@@ -438,7 +303,7 @@ describe('arrays larger than a binding', () => {
   it('stay in buffers, with the scene as it was, where the grown ones are refused', async () => {
     const { scene, mesh, grown } = growing();
     // What textures of one layer hold is less than the mesh takes.
-    const { device: tiny, shapes: shapesOf } = limited({ ...SMALL, maxTextureArrayLayers: 1 });
+    const { device: tiny, shapes: shapesOf } = limited(device, { ...SMALL, maxTextureArrayLayers: 1 });
     const first = await PathTracer.create(tiny, scene, options);
     const before = await film(first);
     await expect(first.replaceMesh(0, mesh)).rejects.toMatchObject({ code: 'renderer/limit' });
@@ -448,7 +313,7 @@ describe('arrays larger than a binding', () => {
     first.destroy();
 
     // The driver refuses the kernels that read textures, once.
-    const { device: small, shapes, live } = limited();
+    const { device: small, shapes, live } = limited(device);
     const tracer = await PathTracer.create(small, scene, options);
     let refusals = 0;
     const create = device.createComputePipelineAsync;

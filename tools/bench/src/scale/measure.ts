@@ -10,6 +10,8 @@ export interface ScalePlan {
   readonly defaultLimits: boolean;
   readonly size: number;
   readonly samples: number;
+  /** `memory.compactAboveMiB` of the tracer; absent: its default. */
+  readonly compactAboveMiB?: number;
   readonly gpu?: string;
 }
 
@@ -79,6 +81,7 @@ export async function renderAtScale(plan: ScalePlan, log: (line: string) => void
     maxDepth: 4,
     pathsInFlight: Math.min(1 << 16, size * size),
     bvhBuilder: 'cpu',
+    ...(plan.compactAboveMiB === undefined ? {} : { memory: { compactAboveMiB: plan.compactAboveMiB } }),
   });
   const created = performance.now();
   log(`${defaultLimits ? 'default limits' : "the adapter's limits"}: created in ${Math.round(created - started)} ms`);

@@ -20,6 +20,8 @@ export interface PosedGeometry {
   readonly placement: Placement;
   readonly blas: readonly (Hierarchy | undefined)[];
   readonly regions: readonly MeshRegion[];
+  /** Where shapes are compact, the CPU computes poses. */
+  readonly compact?: unknown;
 }
 
 /** What poses use of the editor of a scene. */

@@ -40,7 +40,7 @@ export async function poseOnGpu<G extends PosedGeometry>(
 ): Promise<PosingChange | undefined> {
   const { scene, gpu, builders, trees } = editor;
   const { pose } = mesh;
-  if (!builders.gpu || !pose) return undefined;
+  if (!builders.gpu || !pose || editor.geometry.compact) return undefined;
   const packed = packPose(pose);
   const posing = await posingFor(editor, index, pose.rig);
   const poser = await posing?.poser;

@@ -1,0 +1,25 @@
+import type { WgslModule } from '@glanz/wgsl';
+import triangles from '../storage/compact/compact_triangles.wesl';
+import vertices from '../storage/compact/compact_vertices.wesl';
+import type { KernelParts } from './pipelines';
+
+/** By the name of the module in whose place they are. */
+const READERS: Readonly<Record<string, WgslModule>> = {
+  'renderer/triangles': triangles,
+  'renderer/vertices': vertices,
+};
+
+/** A kernel that reads compact shapes: other functions read triangles and vertices. Loaded where a scene needs it. */
+export function compactKernel(parts?: KernelParts): KernelParts {
+  const swapped = new Map<WgslModule, WgslModule>();
+  const swap = (module: WgslModule): WgslModule => {
+    let found = swapped.get(module);
+    if (!found) {
+      // Readers need what the modules that they replace need.
+      const deps = module.deps.map((dep) => ('flag' in dep ? { ...dep, module: swap(dep.module) } : swap(dep)));
+      swapped.set(module, (found = { ...(READERS[module.name] ?? module), deps }));
+    }
+    return found;
+  };
+  return { ...parts, swap };
+}
