@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl/error';
 import type { Chain } from './chain';
 import { checkOptions, readNetworks, wasmFor } from './configure';
 import { DenoiseError } from './error';
@@ -191,7 +192,7 @@ export class Denoiser {
 
   async #startShaders(): Promise<Shaders> {
     if (this.#shaders) return this.#shaders;
-    const { Shaders } = await import('./shaders');
+    const { Shaders } = await loadPart('shaders', import('./shaders'));
     const shaders = await Shaders.create(this.#device, this.#networks, this.#options);
     if (this.#destroyed) shaders.destroy();
     this.#expectAlive();

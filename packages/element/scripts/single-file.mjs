@@ -16,7 +16,7 @@ const ENTRY = `
 import { defineGlanzViewer } from '../element/src/element';
 import { serveBuilds } from '@glanz/bvh/worker';
 import { serveGltf } from '../gltf/src/worker/serve';
-export { GlanzError } from '@glanz/wgsl/error';
+export { GlanzError, loadPart } from '@glanz/wgsl/error';
 
 if (typeof WorkerGlobalScope === 'undefined') defineGlanzViewer();
 else if (self.name === 'glanz-gltf') serveGltf();

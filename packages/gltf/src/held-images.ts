@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/scene';
 import type { SceneWarning } from '@glanz/scene';
 import type { DecodedImage } from './decoded-image';
 import type { FittedImage, FittedImages } from './fit-images';
@@ -6,7 +7,7 @@ import type { FittedImage, FittedImages } from './fit-images';
 const UNCHECKED_BYTES = 2 ** 28;
 
 /** Few documents need it. */
-export const imageFitting = () => import('./fit-images');
+export const imageFitting = () => loadPart('fit-images', import('./fit-images'));
 
 /**
  * The decoded images of a load, within a budget: as soon as they exceed it, the largest lose levels, so that those of a

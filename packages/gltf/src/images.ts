@@ -2,6 +2,7 @@ import type { DecodedImage, ImageDecoder, Ktx2Decoder, CompressedFormats } from 
 import type { GltfImageConversion } from '@glanz/openpbr/gltf';
 import {
   GlanzError,
+  loadPart,
   type CompressedFormat,
   type Image,
   type SceneWarning,
@@ -262,7 +263,7 @@ export class TextureTable {
         images.push({ name: this.#nameOf(entry.image), of: decoded ?? { image: white() } });
       } else {
         // Few documents need it.
-        const { convertImage } = await import('./convert-image');
+        const { convertImage } = await loadPart('convert-image', import('./convert-image'));
         const sources = await Promise.all(entry.sources.map((index) => decoding.get(index)));
         const name = entry.sources.flatMap((index) => (index === undefined ? [] : [this.#nameOf(index)])).join(' + ');
         const { derived } = entry;

@@ -1,4 +1,4 @@
-import { createScene, type Scene, type SceneWarning } from '@glanz/scene';
+import { createScene, loadPart, type Scene, type SceneWarning } from '@glanz/scene';
 import type { Accessors } from './accessors';
 import { describeAnimations, morphingNodes, posesAt, type NodePose } from './animation';
 import { pointedValues, withValues } from './animation-pointer';
@@ -145,7 +145,7 @@ export async function buildScene(
   const shown = sceneToShow(json, options.scene, source.name);
   const dracoWorkers = reader.draco ? options.decoders?.dracoWorkers : undefined;
   if (dracoWorkers) {
-    await (await import('./draco-ahead')).unpackAhead(json, shown, reader, dracoWorkers);
+    await (await loadPart('draco-ahead', import('./draco-ahead'))).unpackAhead(json, shown, reader, dracoWorkers);
     signal?.throwIfAborted();
   }
   // Faces of an environment are read at their full size.

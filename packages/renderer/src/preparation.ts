@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { inSlices, SceneError, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
 import { biasedFlags } from './biased-options';
 import { cameraUniforms } from './camera/camera';
@@ -244,7 +245,7 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
       needs: ['scene'],
       place: 'elsewhere',
       // A quarter of what the renderer weighs, and needed by no earlier stage: a chunk of its own.
-      run: async () => energyTextures((await import('@glanz/openpbr/tables')).OPENPBR_TABLES),
+      run: async () => energyTextures((await loadPart('tables', import('@glanz/openpbr/tables'))).OPENPBR_TABLES),
     }),
     stage({
       name: 'gpuScene',
@@ -277,7 +278,7 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
       place: 'elsewhere',
       async run(products, { signal }) {
         if (!options.guiding) return;
-        const { trainGuide } = await import('./session/guide-training');
+        const { trainGuide } = await loadPart('guide-training', import('./session/guide-training'));
         const source = { ...products, device, cache, options, signal };
         const tools = [Integrator, GpuMemory, isShown, packFrame, parametersOf, readFloats, withErrorScopes] as const;
         await trainGuide(source, tools);

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { createScene } from '@glanz/scene';
 import { loadGpuTrees } from './geometry/hierarchies';
 import { buildsOnGpu } from './geometry/hierarchy';
@@ -36,7 +37,9 @@ export async function warmUp(device: GPUDevice, options: WarmUpOptions = {}): Pr
         .then(({ gpuBuilder }) => gpuBuilder(device))
         .catch(() => {});
     // Loaded here only: most of what this takes, and not every page warms up.
-    await (await import('./warm-up-scene')).renderSample(PathTracer, device, createScene(), options);
+    await (
+      await loadPart('warm-up-scene', import('./warm-up-scene'))
+    ).renderSample(PathTracer, device, createScene(), options);
   } catch {
     // Given up, or a device that nothing can be done with.
   }

@@ -1,4 +1,4 @@
-export { GlanzError, type ErrorLocation, type GlanzErrorOptions } from '@glanz/wgsl/error';
+export { GlanzError, loadPart, type ErrorLocation, type GlanzErrorOptions } from '@glanz/wgsl/error';
 export { createScene, type Instance, type Scene, type SceneAnimation, type SceneWarning } from './scene';
 export type { Mesh, MeshPose, MeshRig, MeshSkin, MorphTarget } from './mesh';
 export type { Material, TextureBinding, TextureChannels, TexturedParameter } from './material';

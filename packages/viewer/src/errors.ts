@@ -1,5 +1,7 @@
 import { GlanzError } from '@glanz/scene';
 
+export { loadPart } from '@glanz/scene';
+
 /**
  * Thrown by the viewer. Codes:
  *

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/scene';
 import type { ImageDecoder } from '@glanz/formats';
 import type { Scene } from '@glanz/scene';
 import { ViewerError } from './errors';
@@ -33,7 +34,7 @@ export async function loadOther(name: string, read: ReadFile, { decoder, signal 
     decodeImage: async (image: Uint8Array<ArrayBuffer>) => (await decoder())(image, 'application/octet-stream'),
     ...(signal ? { signal } : {}),
   };
-  if (/\.usd[acz]?$/i.test(name)) return (await import('@glanz/formats/usd')).readUsd(bytes, options);
-  const { readObj, readStl } = await import('@glanz/formats');
+  if (/\.usd[acz]?$/i.test(name)) return (await loadPart('usd', import('@glanz/formats/usd'))).readUsd(bytes, options);
+  const { readObj, readStl } = await loadPart('formats', import('@glanz/formats'));
   return /\.stl$/i.test(name) ? readStl(bytes, { name }) : readObj(bytes, options);
 }

@@ -1,7 +1,7 @@
 import type { GltfDecoders, GltfProgress } from '@glanz/gltf';
 import { GlanzError, inSlices, type CompressedFormat, type Environment, type Scene } from '@glanz/scene';
 import { isAbort } from './aborts';
-import { ViewerError } from './errors';
+import { ViewerError, loadPart } from './errors';
 import type { ReadFile } from './load-other';
 
 /**
@@ -152,7 +152,7 @@ export async function loadEnvironment(
     if (!bytes)
       throw new ViewerError(
         'viewer/environment',
-        `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server lets this page read it.`,
+        `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address and CORS.`,
       );
   } else if (source instanceof Blob) bytes = await bytesOf(source);
   else {
@@ -160,7 +160,7 @@ export async function loadEnvironment(
     if (type === 'latlong' || type === 'constant') return source;
     throw new ViewerError(
       'viewer/environment',
-      `An environment is a name, an address, a file, or latlong or constant data, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
+      `An environment is an address, a file or data, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
     );
   }
   // JPEG, PNG and WebP; an environment of high dynamic range begins with "#?" or 76 2f.
@@ -195,6 +195,9 @@ export const meshoptDecoder = async (): Promise<unknown> => (await import('mesho
 /** What the loader of glTF takes. */
 export type GltfSource = string | URL | { readonly files: ReadonlyMap<string, Blob>; readonly entry: string };
 
+/** The loader on the page's own thread. */
+const readInPage = () => loadPart('gltf', import('./gltf'));
+
 async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<Scene> {
   const { signal, onProgress, decoders, createWorker, compressedFormats, credentials } = options;
   const common = { signal, onProgress, credentials };
@@ -213,12 +216,15 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
     if (isAbort(error) || refused) throw error;
   }
   signal?.throwIfAborted();
-  const { loadGltf } = await import('./gltf');
+  const { loadGltf } = await readInPage();
   return loadGltf(source, { ...common, compressedFormats, decoders: { meshopt: meshoptDecoder, ...decoders } });
 }
 
 /** Reads a model that is no glTF; pages that load glTF alone do not fetch what reads it. */
 async function readOther(name: string, read: ReadFile, signal: AbortSignal | undefined): Promise<Scene> {
   const { loadOther } = await import('./load-other');
-  return loadOther(name, read, { decoder: async () => (await import('./gltf')).decodeImageInBrowser, signal });
+  return loadOther(name, read, {
+    decoder: async () => (await readInPage()).decodeImageInBrowser,
+    signal,
+  });
 }

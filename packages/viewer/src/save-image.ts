@@ -1,7 +1,7 @@
 import type { BlobOptions } from './options';
 import type { PathTracer } from '@glanz/renderer';
 import { MAX_ADAPTIVE_SAMPLES } from '@glanz/renderer/options';
-import { inSlices } from '@glanz/scene';
+import { inSlices, loadPart } from '@glanz/scene';
 import type { ToneMap } from '@glanz/tonemap';
 import { toneMapPixels, type ToneMapOptions } from '@glanz/tonemap/tone-map';
 import type { checkedOption, checkedSetting } from './checks';
@@ -168,7 +168,7 @@ export async function codesOf(
 
 /** Linear RGBA as OpenEXR. */
 async function exrBlob(film: Float32Array, { width, height, samples }: PathTracer, type: string): Promise<Blob> {
-  const { encodeExr } = await import('@glanz/image/exr');
+  const { encodeExr } = await loadPart('exr', import('@glanz/image/exr'));
   const plane = (channel: number) =>
     Float32Array.from({ length: film.length / 4 }, (_, i) => film[4 * i + channel] as number);
   const attributes = { software: 'Glanz', samples: String(samples) };

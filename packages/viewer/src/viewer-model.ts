@@ -1,3 +1,4 @@
+import { loadPart } from './errors';
 import type { PathTracer } from '@glanz/renderer';
 import type { AnimationPlayer } from './animation-player';
 import { inSlices, sceneBoundsSteps, untilAborted, type Camera, type Scene } from '@glanz/scene';
@@ -26,6 +27,9 @@ const STAGES: Readonly<Record<LoadStage, readonly [number, number]>> = {
   upload: [0.75, 0.85],
   compile: [0.85, 1],
 };
+
+/** Few pages need it. */
+const loadStage = () => loadPart('stage', import('./stage'));
 
 /** The model of a viewer: how it is loaded, its variants and its materials. */
 export class ViewerModel {
@@ -123,7 +127,7 @@ export class ViewerModel {
 
   async #restage(): Promise<void> {
     const { loaded } = this;
-    const { restage } = await import('./stage');
+    const { restage } = await loadStage();
     await restage(this.#engine, {
       from: () => this.#staged,
       to: () => (this.#staged = this.stage),
@@ -148,7 +152,7 @@ export class ViewerModel {
 
   async #open(): Promise<AnimationPlayer> {
     const scene = this.loaded;
-    const { openPlayer } = await import('./animation-player');
+    const { openPlayer } = await loadPart('animation-player', import('./animation-player'));
     return (this.player = await openPlayer({
       source: this.#source,
       scene,
@@ -189,9 +193,7 @@ export class ViewerModel {
     signal.throwIfAborted();
     const { stage } = this;
     const isStaged = stage.transform || stage.ground;
-    const { model: scene, shown } = isStaged
-      ? (await import('./stage')).staged(raw, stage)
-      : { model: raw, shown: raw };
+    const { model: scene, shown } = isStaged ? (await loadStage()).staged(raw, stage) : { model: raw, shown: raw };
     const { lit, warning, adopt } = await prepare(scene);
     // Each iterates over all vertices.
     const camera = await inSlices(this.#camera.choose(scene, options.camera ?? firstView), { signal });

@@ -9,7 +9,7 @@ import type { Denoising } from './denoise-session';
 import { Emitter, type ListenOptions } from './emitter';
 import { Engine, type TracerCopy } from './engine';
 import { engineSettings, previewOptions } from './engine-settings';
-import { ViewerError } from './errors';
+import { ViewerError, loadPart } from './errors';
 import type { ViewerEvents, ViewerState } from './events';
 import { imageSize } from './image-size';
 import type { GroundOptions } from './ground';
@@ -248,7 +248,7 @@ export class Viewer {
    */
   async toBlob(options: BlobOptions = {}): Promise<Blob> {
     sceneOf(this.#engine);
-    const { imageBlob } = await import('./save-image');
+    const { imageBlob } = await loadPart('save-image', import('./save-image'));
     checkAlive(this.#engine);
     const animates = () => this.#animates;
     return imageBlob(this, this.#engine, options, { checkedOption, checkedSetting, ViewerError, animates });

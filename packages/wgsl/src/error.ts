@@ -59,3 +59,22 @@ export class GlanzError extends Error {
     this.location = options.location;
   }
 }
+
+/**
+ * Waits for a part of a package that is loaded by `import()` when it is first needed.
+ *
+ * @param name Of the part, as the message calls it.
+ * @throws {GlanzError} `wgsl/chunk` where its file cannot be loaded. Reload the page: after a new deployment, the files
+ * that an open page asks for are gone.
+ */
+export async function loadPart<T>(name: string, part: Promise<T>): Promise<T> {
+  try {
+    return await part;
+  } catch (cause) {
+    throw new GlanzError(
+      'wgsl/chunk',
+      `"${name}" cannot be loaded: ${String(cause)}. Reload the page: there may be a new version.`,
+      { cause },
+    );
+  }
+}

@@ -1,4 +1,4 @@
-export { GlanzError, type ErrorLocation, type GlanzErrorOptions } from './error';
+export { GlanzError, loadPart, type ErrorLocation, type GlanzErrorOptions } from './error';
 export { gated, wgslModule, type GatedDependency, type WgslModule } from './module';
 export { compose, WgslComposeError, type ComposedWgsl, type ComposeOptions, type WgslLocation } from './compose';
 export { beginShaderModule, createShaderModule, ShaderError, type PendingShaderModule } from './shader';

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl/error';
 import { DenoiseError } from '../error';
 import { INPUT, readNetwork, type Network } from '../network';
 import type { DenoiserInput, DenoiserOptions } from '../options';
@@ -149,7 +150,7 @@ export async function denoiseOnCpu(
   const first = encode(sources, images, input, scale);
   onLayer?.('input', first);
   signal?.throwIfAborted();
-  const fast = options.webAssembly && !onLayer && (await import('./in-wasm'));
+  const fast = options.webAssembly && !onLayer && (await loadPart('in-wasm', import('./in-wasm')));
   const last =
     (fast && (await fast.evaluateInWasm(network, first, signal))) || (await evaluate(network, first, options));
   const output = new Float32Array(width * height * pixelStride);

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/scene';
 import type { GltfDecoders, Ktx2Decoder } from '@glanz/gltf';
 import { ElementError } from '../errors';
 import { importDefault } from '../import-default';
@@ -46,7 +47,7 @@ export function packagedDecoders(addresses: DecoderAddresses = {}): GltfDecoders
     ktx2: async (...image) => {
       const address = addresses.ktx2;
       if (!ktx2 || ktx2.address !== address) {
-        const decoder = Promise.all([start('ktx2', () => import('./basis')), import('./ktx2')]).then(
+        const decoder = Promise.all([start('ktx2', () => import('./basis')), loadPart('ktx2', import('./ktx2'))]).then(
           ([module, { ktx2Decoder }]) => ktx2Decoder(module as object),
         );
         ktx2 = { address, decoder };

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { packTriangles } from '@glanz/bvh';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
@@ -184,7 +185,7 @@ export async function chooseCompact(scene: Scene, memory?: MemoryBudget): Promis
   const bytes = Object.values(shapeBytes(scene)).reduce((a, b) => a + b, 0);
   if (bytes <= (memory?.compactAboveMiB ?? COMPACT_ABOVE_MIB) * 2 ** 20) return undefined;
   // A chunk of its own, for most scenes have no use for it.
-  return (await import('./compact-shapes')).COMPACT_SHAPES;
+  return (await loadPart('compact-shapes', import('./compact-shapes'))).COMPACT_SHAPES;
 }
 
 /** Bytes and triangles that are written at once: a millisecond or two of work. */

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { buildBlas, type Blas } from '@glanz/bvh';
 import { yieldToEventLoop, type Mesh } from '@glanz/scene';
 import type { CompactShapes } from './compact-shapes';
@@ -53,7 +54,7 @@ export function createYielder(sliceMs: number = SLICE_MS): () => Promise<void> {
 }
 
 /** What builds and poses on the GPU: a chunk of its own, for most scenes have no use for it. */
-export const loadGpuTrees = () => import('./gpu-trees');
+export const loadGpuTrees = () => loadPart('gpu-trees', import('./gpu-trees'));
 
 /** Triangles of all meshes. */
 export const trianglesOf = (meshes: readonly Mesh[]) =>

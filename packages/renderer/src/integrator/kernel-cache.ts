@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import {
   kernelSource,
   KERNELS,
@@ -97,18 +98,21 @@ export class KernelCache {
   /** One kernel. What is not needed for the first image is loaded first. @param parts See {@link kernelSource}. */
   async kernel(name: KernelName, features: KernelFeatures, parts?: KernelParts): Promise<Kernel> {
     if (name === 'noise' || name === 'relight' || name === 'variance' || name === 'aov' || name === 'aov_ids')
-      parts = { root: (await import('./film-kernels')).FILM_KERNELS[name] };
-    if (name === 'shade' && features.flags.GUIDE) parts = (await import('./guide-kernels')).GUIDED_SHADE;
-    if (name === 'shade' && features.flags.SHADOW_SOFTNESS) parts = (await import('./soft-shadows')).softened(parts);
+      parts = { root: (await loadPart('film-kernels', import('./film-kernels'))).FILM_KERNELS[name] };
+    if (name === 'shade' && features.flags.GUIDE)
+      parts = (await loadPart('guide-kernels', import('./guide-kernels'))).GUIDED_SHADE;
+    if (name === 'shade' && features.flags.SHADOW_SOFTNESS)
+      parts = (await loadPart('soft-shadows', import('./soft-shadows'))).softened(parts);
     const { OPENPBR_LOBES, DELTA_TRANSMISSION } = features.flags;
     // The kernels that compose the surface.
     if (OPENPBR_LOBES && (name === 'shade' || (name === 'connect' && DELTA_TRANSMISSION))) {
-      const { openpbrLobes } = await import('@glanz/openpbr/lobes');
+      const { openpbrLobes } = await loadPart('lobes', import('@glanz/openpbr/lobes'));
       parts = { ...parts, host: [...(parts?.host ?? []), openpbrLobes] };
     }
     const { compact, pages } = features;
-    if (compact) parts = (await import('./compact-kernels')).compactKernel(parts);
-    if (pages) parts = (await import('./paged-kernels')).pagedKernel(this.#device, pages, parts);
+    if (compact) parts = (await loadPart('compact-kernels', import('./compact-kernels'))).compactKernel(parts);
+    if (pages)
+      parts = (await loadPart('paged-kernels', import('./paged-kernels'))).pagedKernel(this.#device, pages, parts);
     const source = kernelSource(name, features, parts);
     return remember(this.#kernels, source.key, () => source.compile(this.#device));
   }

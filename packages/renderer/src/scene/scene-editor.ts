@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import {
   createScene,
   validateScene,
@@ -198,7 +199,7 @@ export class SceneEditor {
 
   async replaceMesh(nameOrIndex: string | number, mesh: Mesh): Promise<SceneChange> {
     // A chunk of its own, for most scenes keep their meshes.
-    const { replaceMesh } = await import('./replace-mesh');
+    const { replaceMesh } = await loadPart('replace-mesh', import('./replace-mesh'));
     const tools = [
       attributeWords,
       createScene,

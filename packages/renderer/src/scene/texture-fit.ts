@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import type { Scene } from '@glanz/scene';
 import { RenderError } from '../errors';
 import type { ReducedTexture } from '../memory';
@@ -36,7 +37,7 @@ export class TextureFit implements FittedTextures {
       scene.images.some(({ width, height }) => Math.max(width, height) >= limit)
     ) {
       const tools = [bytesOf, usedTextures, compressedFormats, RenderError] as const;
-      await (await import('./fit-textures')).fitTextures(this, budget, tools, cause);
+      await (await loadPart('fit-textures', import('./fit-textures'))).fitTextures(this, budget, tools, cause);
     }
   }
 }

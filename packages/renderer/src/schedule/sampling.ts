@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { FIRST_CHECK, nextCheck, TileGrid } from './adaptive';
 import type { RenderProgress } from '../options';
 import { renderLoop, type RenderLoop } from './render-loop';
@@ -141,7 +142,7 @@ export class Sampling {
       this.#settle();
       let tiles: readonly number[] = [...this.#counts.keys()];
       if (goal.noise !== undefined && this.#counts.every((count) => count >= FIRST_CHECK)) {
-        const { noiseMap, noisyTiles, samplesLeft } = await import('./noise-target');
+        const { noiseMap, noisyTiles, samplesLeft } = await loadPart('noise-target', import('./noise-target'));
         const map = noiseMap(await this.#host.measure());
         if (!goal.current()) return;
         tiles = noisyTiles(map.tiles, this.#grid.columns, goal.noise);

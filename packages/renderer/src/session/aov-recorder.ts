@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { inErrorScopes } from '../device/error-scopes';
 import { RenderError } from '../errors';
 import { AOV_BUFFERS, AOV_PLACES, type AovBuffer } from '../film/aovs';
@@ -102,7 +103,7 @@ export class AovRecorder {
       AOV_PLACES[name].buffer,
       ...(name === 'position' ? ['aov_albedo' as const] : []),
     ]);
-    const { unpackAov } = await import('../film/film-data');
+    const { unpackAov } = await loadPart('film-data', import('../film/film-data'));
     for (;;) {
       const started = generation();
       await this.fill();

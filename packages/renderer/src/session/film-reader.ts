@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { withErrorScopes } from '../device/error-scopes';
 import type { Film } from '../film/film';
 import type { GroupWeights } from '../film/layers';
@@ -63,7 +64,7 @@ export class FilmReader {
     const weights = integrator.pathsPerSample > 1 ? [...firstWeights(), ...firstWeights()] : firstWeights();
     const missing = headSamples(first());
     const [total, moment, head] = await Promise.all([...this.copy('film_total', 'film_moment'), this.head()]);
-    const { varianceLayer } = await import('../film/film-data');
+    const { varianceLayer } = await loadPart('film-data', import('../film/film-data'));
     return varianceLayer(total as Floats, moment as Floats, weights, missing, head);
   }
 

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import type { Camera } from '@glanz/scene';
 import { TileGrid } from '../schedule/adaptive';
 import { RenderError } from '../errors';
@@ -234,7 +235,7 @@ export class FilmSession {
     const pass = this.groups.lightPass(name);
     const weight = this.groups.weights[pass] as GroupWeights[number];
     const [total, block, moment] = await Promise.all(this.reader.copy('film_total', 'film_block', 'film_moment'));
-    const { groupLayer } = await import('../film/film-data');
+    const { groupLayer } = await loadPart('film-data', import('../film/film-data'));
     return groupLayer(total as Float32Array, block as Float32Array, moment as Float32Array, pass, weight);
   }
 
@@ -282,7 +283,7 @@ export class FilmSession {
   /** See `PathTracer.restoreFilm`. */
   async restore(state: FilmState): Promise<void> {
     const { device, integrator, memory, fingerprint, check } = this.#host;
-    const { filmStateFault } = await import('../film/film-data');
+    const { filmStateFault } = await loadPart('film-data', import('../film/film-data'));
     check();
     const film = this.#film;
     const { width, height, lightPasses } = film;

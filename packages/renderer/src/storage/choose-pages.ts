@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import { DeviceError } from '../errors';
 import type { Pages } from './paged/pages';
 import type { ShapeArray, ShapeBytes } from './shape-arrays';
@@ -13,6 +14,6 @@ export async function choosePages(device: GPUDevice, bytes: ShapeBytes, present?
   const entries = Object.entries(bytes) as [ShapeArray, number][];
   if (entries.every(([name, size]) => size <= limit || present?.names.includes(name))) return present;
   // A chunk of its own, for most scenes have no use for it.
-  const { Pages } = await import('./paged/pages');
+  const { Pages } = await loadPart('pages', import('./paged/pages'));
   return new Pages(device, bytes, limit, DeviceError, present);
 }
