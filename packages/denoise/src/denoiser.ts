@@ -108,7 +108,7 @@ export class Denoiser {
   }
 
   /**
-   * Denoises an image, in submissions of about `maxSubmitMs` each, or in WebAssembly in slices of about 12 ms. Resolves
+   * Denoises an image, in submissions of about `maxSubmitMs` each, or in WebAssembly in slices of about 6 ms. Resolves
    * when the GPU is done.
    *
    * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/option`, `denoise/memory`, `denoise/limit`,

@@ -45,7 +45,7 @@ export interface DenoiserOptions {
    */
   readonly subgroupMatrices?: boolean;
   /**
-   * Whether the CPU computes the layers, in WebAssembly, on the calling thread in slices of about 12 ms; the GPU still
+   * Whether the CPU computes the layers, in WebAssembly, on the calling thread in slices of about 6 ms; the GPU still
    * encodes and decodes. Values between layers are in single precision, whatever `storage` says. Default: on adapters
    * that are software (SwiftShader, lavapipe, WARP); on SwiftShader it takes a tenth of the time or less. A page with a
    * content security policy allows it with `'wasm-unsafe-eval'` in `script-src`; where it is forbidden, or the browser has no

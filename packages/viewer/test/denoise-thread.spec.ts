@@ -165,7 +165,7 @@ test('in WebAssembly an image is read and written by parts, and the page runs be
   expect(mapped.reduce((sum, bytes) => sum + bytes, 0)).toBe(256 * 256 * 48);
   expect(Math.max(...mapped)).toBeLessThanOrEqual(2 ** 21);
   expect(Math.max(...written)).toBeLessThanOrEqual(2 ** 21);
-  // Then the layers, 6.6 GFLOP: a core with 60 GFLOP/s fills nine slices of 12 ms with them.
+  // Then the layers, 6.6 GFLOP: a core with 60 GFLOP/s fills eighteen slices of 6 ms with them.
   expect(await page.evaluate(() => window.turnsAfterRead)).toBeGreaterThan(5);
 });
 

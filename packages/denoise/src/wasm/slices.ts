@@ -1,5 +1,5 @@
 /** Milliseconds between two returns to the event loop. */
-const SLICE_MS = 12;
+const SLICE_MS = 6;
 
 /**
  * Lets other tasks of the event loop run, all that wait: a timer would cost milliseconds, and `scheduler.yield()` comes
