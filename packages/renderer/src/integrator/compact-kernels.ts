@@ -4,10 +4,9 @@ import vertices from '../storage/compact/compact_vertices.wesl';
 import type { KernelParts } from './pipelines';
 
 /** By the name of the module in whose place they are. */
-const READERS: Readonly<Record<string, WgslModule>> = {
-  'renderer/triangles': triangles,
-  'renderer/vertices': vertices,
-};
+const READERS: ReadonlyMap<string, WgslModule> = new Map(
+  Object.entries({ triangles, vertices }).map(([name, module]) => [`renderer/${name}`, module]),
+);
 
 /** A kernel that reads compact shapes: other functions read triangles and vertices. Loaded where a scene needs it. */
 export function compactKernel(parts?: KernelParts): KernelParts {
@@ -17,7 +16,7 @@ export function compactKernel(parts?: KernelParts): KernelParts {
     if (!found) {
       // Readers need what the modules that they replace need.
       const deps = module.deps.map((dep) => ('flag' in dep ? { ...dep, module: swap(dep.module) } : swap(dep)));
-      swapped.set(module, (found = { ...(READERS[module.name] ?? module), deps }));
+      swapped.set(module, (found = { ...(READERS.get(module.name) ?? module), deps }));
     }
     return found;
   };
