@@ -9,8 +9,8 @@ const CLOSING = { '(': ')', '[': ']', '{': '}', '<': '>' };
  * @param {string} text
  * @param {string} file For messages.
  * @returns {{ imports: { path: string[], name: string, flag: string | undefined, line: number }[], edits: { from:
- *   number, to: number, text: string }[], comments: { from: number, to: number }[], tokens: { text: string, from: number,
- *   to: number }[] }} `edits` turn the text into one with gates. `path` is the module of an imported name.
+ *   number, to: number, text: string }[], comments: { from: number, to: number }[], tokens: { text: string,
+ *   from: number, to: number }[] }} `edits` turn the text into one with gates. `path` is the module of an imported name.
  * @throws {WeslError}
  */
 export function parseWesl(text, file = 'module.wesl') {

@@ -25,8 +25,8 @@ const TYPES: Readonly<Record<string, string>> = {
 };
 
 /**
- * Builds the site, as a release would, with the playground that its own tests build, too. Throws with VitePress's output
- * where it fails, dead links included.
+ * Builds the site, as a release would, with the playground that its own tests build, too. Throws with VitePress's
+ * output where it fails, dead links included.
  */
 export async function buildSite(): Promise<void> {
   const vitepress = dirname(createRequire(join(docs, 'package.json')).resolve('vitepress/package.json'));

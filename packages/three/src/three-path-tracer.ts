@@ -1,6 +1,6 @@
 import { defaultParameters } from '@glanz/openpbr/parameters';
 import type { PathTracer, PathTracerOptions } from '@glanz/renderer';
-import type { Camera, Material, SceneWarning } from '@glanz/scene';
+import { loadPart, type Camera, type Material, type SceneWarning } from '@glanz/scene';
 import type { ToneMapOptions } from '@glanz/tonemap';
 import { CanvasOutput } from './canvas-output';
 import { readCamera } from './cameras';
@@ -469,7 +469,7 @@ export class ThreePathTracer {
 const destroyed = () => new ThreeError('three/destroyed', 'This ThreePathTracer has been destroyed: create another.');
 
 /** Pages convert, and rasterise, without it. */
-const loadRenderer = () => import('@glanz/renderer');
+const loadRenderer = () => loadPart('renderer', import('@glanz/renderer'));
 
 /** Where three shows no environment, or another background, the image is transparent. */
 const backgroundOf = ({ scene }: Conversion) => (scene.environment?.visible === true ? 'environment' : 'transparent');

@@ -15,7 +15,10 @@ export class DeviceLossPolicy {
   async next(now = performance.now()): Promise<void> {
     this.#times = [...this.#times.filter((time) => now - time < WINDOW_MS), now];
     if (this.#times.length > MAX_LOSSES)
-      throw new ViewerError('viewer/device-lost', 'The GPU was lost repeatedly. Show a smaller model or image.');
+      throw new ViewerError(
+        'viewer/device-lost',
+        'The GPU was lost repeatedly. Show a smaller model or image, or close other programs.',
+      );
     await new Promise((resolve) => setTimeout(resolve, 200 * this.#times.length ** 2));
   }
 

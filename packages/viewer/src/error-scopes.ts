@@ -23,7 +23,7 @@ export async function withErrorScopes<T>(device: GPUDevice, what: string, run: (
   if (memory)
     throw new ViewerError(
       'viewer/out-of-memory',
-      `The GPU has no memory for ${what}: ${memory.message}. Show a smaller model or image.`,
+      `The GPU does not have enough memory for ${what}: ${memory.message}. Show a smaller model or image, or close other programs.`,
     );
   if (validation) throw new ViewerError('viewer/gpu', `The GPU refused ${what}: ${validation.message}`);
   return await result;

@@ -145,14 +145,15 @@ export async function loadEnvironment(
   credentials?: RequestCredentials,
 ): Promise<Environment | undefined> {
   if (source === 'scene' || source === 'none') return undefined;
-  if (source === 'studio') return inSlices((await import('@glanz/scene/studio')).studioSteps(), { signal });
+  if (source === 'studio')
+    return inSlices((await loadPart('studio', import('@glanz/scene/studio'))).studioSteps(), { signal });
   let bytes;
   if (typeof source === 'string' || source instanceof URL) {
     bytes = await fetchBytes(addressOf(source, 'viewer/environment'), signal, credentials);
     if (!bytes)
       throw new ViewerError(
         'viewer/environment',
-        `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address and CORS.`,
+        `The environment "${String(source).slice(0, 200)}" could not be fetched: check the address, and that its server lets this page read it.`,
       );
   } else if (source instanceof Blob) bytes = await bytesOf(source);
   else {
@@ -160,13 +161,13 @@ export async function loadEnvironment(
     if (type === 'latlong' || type === 'constant') return source;
     throw new ViewerError(
       'viewer/environment',
-      `An environment is an address, a file or data, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
+      `An environment is a name, an address, a file, or latlong or constant data, not ${JSON.stringify(type ?? source)?.slice(0, 40)}.`,
     );
   }
   // JPEG, PNG and WebP; an environment of high dynamic range begins with "#?" or 76 2f.
   if (/^(ffd8|8950|5249)/.test([...bytes.subarray(0, 2)].map((byte) => byte.toString(16)).join('')))
-    return (await import('./ldr-environment')).ldrEnvironment(bytes);
-  const { decodeEnvironment } = await import('@glanz/image/environment');
+    return (await loadPart('ldr-environment', import('./ldr-environment'))).ldrEnvironment(bytes);
+  const { decodeEnvironment } = await loadPart('environment', import('@glanz/image/environment'));
   signal?.throwIfAborted();
   const { width, height, data } = decodeEnvironment(bytes);
   return { type: 'latlong', width, height, data };
@@ -209,10 +210,10 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
       ...(createWorker && compressedFormats ? { compressedFormats: await compressedFormats() } : {}),
     });
   } catch (error) {
-    // Without a worker, or where it lacks a decoder, the file is read here, in slices. What browsers throw for a worker
-    // of another origin or a policy differs, and none of it is a GlanzError.
+    // Without a worker, or where it lacks a decoder or a part of the loader, the file is read here, in slices. What
+    // browsers throw for a worker of another origin or a policy differs, and none of it is a GlanzError.
     const refused =
-      error instanceof GlanzError && error.code !== 'gltf/worker' && error.code !== 'gltf/missing-decoder';
+      error instanceof GlanzError && !['gltf/worker', 'gltf/missing-decoder', 'wgsl/chunk'].includes(error.code);
     if (isAbort(error) || refused) throw error;
   }
   signal?.throwIfAborted();
@@ -222,7 +223,7 @@ async function readGltf(source: GltfSource, options: LoadModelOptions): Promise<
 
 /** Reads a model that is no glTF; pages that load glTF alone do not fetch what reads it. */
 async function readOther(name: string, read: ReadFile, signal: AbortSignal | undefined): Promise<Scene> {
-  const { loadOther } = await import('./load-other');
+  const { loadOther } = await loadPart('load-other', import('./load-other'));
   return loadOther(name, read, {
     decoder: async () => (await readInPage()).decodeImageInBrowser,
     signal,

@@ -109,7 +109,7 @@ export class ViewerModel {
   setMaterial(nameOrIndex: string | number, parameters: MaterialEdit): Promise<void> {
     sceneOf(this.#engine);
     if (Object.values(parameters).some((value) => typeof value === 'string'))
-      this.#colors ??= import('./material-colors');
+      this.#colors ??= loadPart('material-colors', import('./material-colors'));
     const colors = this.#colors;
     // Once the module has been asked for, all edits wait for it, so that they stay in their order.
     const set = (tracer: PathTracer, edit: object) =>

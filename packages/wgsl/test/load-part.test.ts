@@ -18,18 +18,17 @@ it('reports a file that cannot be loaded by a code, with the part, what the brow
 const OTHERS = new Set([
   // Prefetched: what needs it asks again.
   'renderer/src/session/film-session.ts ../film/film-data',
-  // Without it, shaders or threads do the work; frames keep their noise; there is no prompt; the page's thread reads the model.
+  // Without it, shaders or threads do the work; frames keep their noise; there is no prompt; the page's thread reads
+  // the model.
   'denoise/src/configure.ts ./wasm/wasm-chain',
   'denoise/src/layer-shapes.ts ./kernels/choose-matrices',
   'viewer/src/preview-reuse.ts ./frame-reuse',
   'element/src/element.ts ./prompt',
   'viewer/src/load.ts @glanz/gltf/workers',
-  // The viewer's budget has no room for these.
-  'viewer/src/load.ts ./ldr-environment',
-  'viewer/src/load.ts ./load-other',
-  'viewer/src/load.ts @glanz/image/environment',
-  'viewer/src/load.ts @glanz/scene/studio',
-  'viewer/src/viewer-model.ts ./material-colors',
+  // The component imports no value: what it loads brings the first ones.
+  'react/src/declared-look.ts @glanz/openpbr/parameters',
+  'react/src/glanz-viewer.ts ./declared-look',
+  'react/src/glanz-viewer.ts @glanz/element',
   // `element/decoder`.
   'element/src/decoders/index.ts ./draco',
   'element/src/decoders/index.ts ./basis',
@@ -38,7 +37,20 @@ const OTHERS = new Set([
 it('is asked for all parts that pages load later', () => {
   const found = new Set<string>();
   const packages = new URL('../../', import.meta.url);
-  for (const name of ['renderer', 'viewer', 'element', 'gltf', 'denoise'])
+  for (const name of [
+    'renderer',
+    'viewer',
+    'element',
+    'gltf',
+    'denoise',
+    'three',
+    'react',
+    'openpbr',
+    'scene',
+    'bvh',
+    'formats',
+    'image',
+  ])
     for (const file of readdirSync(new URL(`${name}/src/`, packages), { recursive: true, encoding: 'utf8' })) {
       if (!file.endsWith('.ts') || /(^|[\\/])node\b/.test(file)) continue;
       const text = readFileSync(new URL(`${name}/src/${file}`, packages), 'utf8').replaceAll(/^\s*(\*|\/\/).*$/gm, '');

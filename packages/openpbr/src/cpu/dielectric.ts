@@ -15,8 +15,8 @@ export interface InterfaceEnergy {
 }
 
 /**
- * Whether the interface's albedos from its denser side are summed over facets: where something opaque lies below it, and
- * near index 1. Elsewhere the tables are exact enough, since the albedo decides only how samples are chosen.
+ * Whether the interface's albedos from its denser side are summed over facets: where something opaque lies below it,
+ * and near index 1. Elsewhere the tables are exact enough, since the albedo decides only how samples are chosen.
  */
 export const isSummed = (p: OpenPbrParameters, epsilon: number): boolean =>
   epsilon < 0 && (epsilon > -OPENPBR_INSIDE_NEAR || isOverOpaque(p));
@@ -58,8 +58,9 @@ export function interfaceEnergy(
 }
 
 /**
- * Directional albedo of an interface for light from `wi`, the same as {@link interfaceEnergy} has for a viewer there, so
- * that the lobes below it are reciprocal; for anisotropic highlights, that of the tables. Twin of `openpbr_interface_albedo`.
+ * Directional albedo of an interface for light from `wi`, the same as {@link interfaceEnergy} has for a viewer there,
+ * so that the lobes below it are reciprocal; for anisotropic highlights, that of the tables. Twin of
+ * `openpbr_interface_albedo`.
  */
 export function interfaceAlbedo(
   { epsilon, summed, roughness }: { readonly epsilon: number; readonly summed: boolean; readonly roughness: number },

@@ -88,8 +88,8 @@ export function energyLostMean(roughness: number): number {
 }
 
 /**
- * What an anisotropic mirror keeps more than a round one of the same masking, and in the last column how much less of the
- * round one's mean it loses; twin of `openpbr_energy_anisotropic`.
+ * What an anisotropic mirror keeps more than a round one of the same masking, and in the last column how much less of
+ * the round one's mean it loses; twin of `openpbr_energy_anisotropic`.
  *
  * @param x The table's column.
  * @param along Where the slope along the view lies, as a coordinate.
@@ -115,7 +115,8 @@ function anisotropicMore(alpha: Slopes, roughness: number, x: number, along: num
 }
 
 /**
- * Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of `openpbr_conductor_loss`.
+ * Energy that a perfect mirror loses by single scattering towards `w`, of cosine `mu`; twin of
+ * `openpbr_conductor_loss`.
  */
 export function conductorLoss(alpha: Slopes, roughness: number, w: OpenPbrVector, mu: number): number {
   if (isSmooth(alpha)) return 0;
@@ -193,8 +194,8 @@ export function energyAlbedoMean(epsilon: number, roughness: number): number {
 }
 
 /**
- * {@link energyAlbedoMean} of an anisotropic highlight, whose share at `viewRoughness` is a little more in the mean; from
- * inside it is what is given. Twin of `openpbr_energy_anisotropic_mean`.
+ * {@link energyAlbedoMean} of an anisotropic highlight, whose share at `viewRoughness` is a little more in the mean;
+ * from inside it is what is given. Twin of `openpbr_energy_anisotropic_mean`.
  *
  * @param reflected The mean share with a round highlight.
  */

@@ -28,16 +28,16 @@ export const TABLE_BLOCKS = {
   /** Energy that single scattering loses; seen from the thinner medium, over the cubic root of ε. */
   outerTotal: [outerTotal, OPENPBR_TABLE_OUTER_TOTAL],
   /**
-   * The reflected part of single scattering; seen from the denser medium. The last column holds what goes through in the
-   * mean, by all scattering, over η^(2 - roughness).
+   * The reflected part of single scattering; seen from the denser medium. The last column holds what goes through in
+   * the mean, by all scattering, over η^(2 - roughness).
    */
   inner: [inner, OPENPBR_TABLE_INNER],
   /** Energy that single scattering loses; seen from the denser medium. */
   innerTotal: [innerTotal, OPENPBR_TABLE_INNER_TOTAL],
   /**
-   * What anisotropic mirrors keep by single scattering, less what round ones of the same masking do; over the roughness.
-   * Rows: slopes along the view, for each of the anisotropies; the last column holds by how much of the round one's the
-   * mean loss is less.
+   * What anisotropic mirrors keep by single scattering, less what round ones of the same masking do; over the
+   * roughness. Rows: slopes along the view, for each of the anisotropies; the last column holds by how much of the
+   * round one's the mean loss is less.
    */
   anisotropic: [anisotropic, OPENPBR_TABLE_ANISOTROPIC],
 } as const;
