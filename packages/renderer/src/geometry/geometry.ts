@@ -113,7 +113,8 @@ export function layOutGeometry(
       firstTriangle: triangleCount,
       triangles: tree?.triangleIndices.length ?? 0,
       firstVertex,
-      vertices: tree ? mesh.positions.length / 3 : 0,
+      // Those of a mesh that the GPU has posed are computed when they are read.
+      vertices: tree && compact ? mesh.positions.length / 3 : 0,
       firstWord: words,
       words: tree ? attributeWords(mesh, compact) : 0,
     };
@@ -152,7 +153,7 @@ export function expectedShapes(
   compact?: CompactShapes,
 ): Pick<Geometry, 'nodeCount' | 'triangleBytes' | 'attributeWords'> {
   const triangles = trianglesOf(meshes);
-  const records = meshes.reduce((sum, { positions }) => sum + positions.length / 3, triangles);
+  const records = compact ? meshes.reduce((sum, { positions }) => sum + positions.length / 3, triangles) : triangles;
   return {
     nodeCount: triangles / 2,
     triangleBytes: bytesOfTriangles(triangles, records, compact),
