@@ -74,7 +74,7 @@ for (const seed of seeds)
         await Promise.all(ends);
         canvas.style.width = '';
         Object.assign(viewer, {
-          samples: 12,
+          samples: 6,
           noise: undefined,
           maxDepth: 3,
           pixelRatio: 0.25,
