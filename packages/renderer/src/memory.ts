@@ -20,11 +20,13 @@ export interface MemoryBudget {
   /**
    * MiB of shapes (hierarchies, triangles, vertex attributes) above which they are stored compactly, in about half of
    * that; a whole number from 1 to 1,048,576, default 256, which is about 2.7 million triangles. It is decided when a
-   * tracer is created, by the meshes of its scene.
+   * tracer is created, by the meshes of its scene. Shapes of which this saves less than a fifth, such as triangles
+   * without common vertices, are not stored compactly.
    *
    * Compact shapes have the same positions, and hits are the same, bit for bit. Normals and tangents of vertices are
-   * unit vectors within 0.004° and 0.008° of the given ones, and a ray reads a triangle's vertices from several places in memory.
-   * Poses of skinned meshes are computed on the CPU.
+   * unit vectors within 0.004° and 0.008° of the given ones, and a ray reads a triangle's vertices from several places
+   * in memory. Poses of meshes are computed on the CPU: by default, a scene that has meshes with a `pose` when the
+   * tracer is created is therefore not stored compactly; with a number given here, it is.
    */
   readonly compactAboveMiB?: number;
 }

@@ -180,14 +180,23 @@ export function shapeBytes(
 
 /** Shapes of so many MiB are stored as they are read fastest; larger ones take about half. */
 const COMPACT_ABOVE_MIB = 256;
+/** Share of their size that compact shapes may take: triangles that share few vertices do not get smaller. */
+const COMPACT_SHARE = 0.8;
 
-/** What writes the shapes of a scene, if they are to be compact. */
+/** What writes the shapes of a scene, if they are to be compact, see `MemoryBudget.compactAboveMiB`. */
 export async function chooseCompact(scene: Scene, memory?: MemoryBudget): Promise<CompactShapes | undefined> {
-  const bytes = Object.values(shapeBytes(scene)).reduce((a, b) => a + b, 0);
-  if (bytes <= (memory?.compactAboveMiB ?? COMPACT_ABOVE_MIB) * 2 ** 20) return undefined;
+  const above = memory?.compactAboveMiB;
+  const bytes = totalBytes(scene);
+  if (bytes <= (above ?? COMPACT_ABOVE_MIB) * 2 ** 20) return undefined;
+  // The GPU poses meshes in the other layout alone.
+  if (above === undefined && scene.meshes.some(({ pose }) => pose)) return undefined;
   // A chunk of its own, for most scenes have no use for it.
-  return (await loadPart('compact-shapes', import('./compact-shapes'))).COMPACT_SHAPES;
+  const { COMPACT_SHAPES } = await loadPart('compact-shapes', import('./compact-shapes'));
+  return totalBytes(scene, COMPACT_SHAPES) < COMPACT_SHARE * bytes ? COMPACT_SHAPES : undefined;
 }
+
+const totalBytes = (scene: Scene, compact?: CompactShapes) =>
+  Object.values(shapeBytes(scene, expectedShapes(scene, compact))).reduce((a, b) => a + b, 0);
 
 /** Bytes and triangles that are written at once: a millisecond or two of work. */
 const SLICE_BYTES = 1 << 20;
@@ -282,8 +291,8 @@ export function* meshSlices(
 const JOINED_BYTES = 1 << 18;
 
 /**
- * The same with fewer slices, to be written before the next is asked for: those that follow each other in their buffer are joined while they are small, since each
- * write costs more than the bytes of a small mesh.
+ * The same with fewer slices, to be written before the next is asked for: those that follow each other in their buffer
+ * are joined while they are small, since each write costs more than the bytes of a small mesh.
  */
 export function* joinSlices(slices: Iterable<ShapeSlice>): Generator<ShapeSlice> {
   const open = new Map<

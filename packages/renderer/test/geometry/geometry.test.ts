@@ -1,7 +1,7 @@
 import { buildBlas } from '@glanz/bvh';
-import { createScene } from '@glanz/scene';
-import { expect, test } from 'vitest';
-import { joinSlices, layOutGeometry, packGeometry, shapeSlices } from '../../src/geometry/geometry';
+import { createScene, type Mesh, type Scene } from '@glanz/scene';
+import { describe, expect, test } from 'vitest';
+import { chooseCompact, joinSlices, layOutGeometry, packGeometry, shapeSlices } from '../../src/geometry/geometry';
 import type { ShapeSlice } from '../../src/storage/shape-arrays';
 import { addSphere } from '../scenes';
 
@@ -105,4 +105,39 @@ test('joined slices write the same bytes to the same places, in far fewer pieces
   for (const name of ['nodes', 'triangles', 'attributes'] as const) same(joined.memory[name], single.memory[name]);
   expect(single.count).toBeGreaterThan(4 * 40);
   expect(joined.count).toBeLessThan(40);
+});
+
+describe('compact shapes are chosen', () => {
+  /** Only the lengths of arrays decide. */
+  const meshOf = (triangles: number, vertices: number, more: Partial<Record<keyof Mesh, unknown>> = {}) =>
+    ({ name: 'mesh', positions: { length: 3 * vertices }, indices: { length: 3 * triangles }, ...more }) as Mesh;
+  const sceneOf = (...meshes: Mesh[]): Scene => ({ ...createScene('large'), meshes });
+  const large = meshOf(3e6, 1.5e6);
+
+  test('above 256 MiB', async () => {
+    expect(await chooseCompact(sceneOf(large))).toBeDefined();
+    expect(await chooseCompact(sceneOf(meshOf(2e6, 1e6)))).toBeUndefined();
+    expect(await chooseCompact(sceneOf(meshOf(2e6, 1e6)), { compactAboveMiB: 100 })).toBeDefined();
+  });
+
+  test('not for triangles without common vertices, which would take more', async () => {
+    expect(await chooseCompact(sceneOf(meshOf(3e6, 9e6)))).toBeUndefined();
+    expect(await chooseCompact(sceneOf(meshOf(3e6, 9e6)), { compactAboveMiB: 1 })).toBeUndefined();
+    // With normals, which get smaller, they take three quarters.
+    expect(await chooseCompact(sceneOf(meshOf(3e6, 9e6, { normals: { length: 27e6 } })))).toBeDefined();
+  });
+
+  test('not for many meshes that have their vertices in one array, of which each would have a copy', async () => {
+    const parts = Array.from({ length: 100 }, () => meshOf(3e4, 1.5e6, { positions: large.positions }));
+    expect(await chooseCompact(sceneOf(...parts))).toBeUndefined();
+    // One more such part is no reason.
+    expect(await chooseCompact(sceneOf(large, parts[0]!))).toBeDefined();
+  });
+
+  test('not where meshes have poses, unless their size is given', async () => {
+    const posed = sceneOf(large, meshOf(100, 50, { pose: {} }));
+    expect(await chooseCompact(posed)).toBeUndefined();
+    expect(await chooseCompact(posed, { budgetMiB: 100 })).toBeUndefined();
+    expect(await chooseCompact(posed, { compactAboveMiB: 256 })).toBeDefined();
+  });
 });
