@@ -92,7 +92,8 @@ export class PathTracer extends TracerEdits {
         groupNames: () => gpuScene.groups.names,
         packFrame: (film) => packFrame(this.#shownCamera, film, gpuScene, this.#editor.geometry, this.#options),
         camera: () => this.#shownCamera,
-        fingerprint: () => filmFingerprint(this.scene, this.#shownCamera, this.#options),
+        fingerprint: () =>
+          filmFingerprint(this.scene, this.#shownCamera, this.#options, !!this.#editor.geometry.compact),
         check: () => this.#check(),
         ready: () => this.#edits.verifying,
       },

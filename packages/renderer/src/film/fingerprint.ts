@@ -62,9 +62,13 @@ const samplingOptions = (options: TracerSettings): unknown[] =>
  * A hash over what the samples of a film depend on: the options, the camera and the scene (of vertices, texels and
  * pixels only {@link PROBES} of an array are read). Two films with different values must not be continued in each
  * other's place. 64 bits against mistakes, not against malice.
+ *
+ * @param isCompact Whether its shapes are compact: their normals and tangents are others.
  */
-export function filmFingerprint(scene: Scene, camera: Camera, options: TracerSettings): string {
+export function filmFingerprint(scene: Scene, camera: Camera, options: TracerSettings, isCompact: boolean): string {
   const hash = new Hash();
+  // Films of other shapes keep the fingerprint that they had before there were compact ones.
+  if (isCompact) hash.text('compact');
   hash.text(JSON.stringify(samplingOptions(options)));
   hash.text(JSON.stringify({ ...camera, name: '', transform: [] }));
   hash.numbers(camera.transform);
