@@ -31,11 +31,8 @@ function packDirection(x: number, y: number, z: number, bits: number, largest: n
   return (first | (second << bits)) >>> 0;
 }
 
-/**
- * A normal as the fourth word of a vertex, which shaders load as a float: with a largest magnitude of 0x7f7f it is never
- * infinite or NaN.
- */
-export const packNormal = (x: number, y: number, z: number): number => packDirection(x, y, z, 16, 0x7f7f);
+/** A normal, as the fourth word of a vertex. */
+export const packNormal = (x: number, y: number, z: number): number => packDirection(x, y, z, 16, 0x7ffe);
 
 /** Tangents of four numbers, as a word each. */
 export function packTangents(tangents: Float32Array): Uint32Array<ArrayBuffer> {

@@ -20,7 +20,7 @@ const ACCESSORS: ReadonlySet<string | undefined> = new Set(
  * needs it.
  *
  * @param pages The arrays.
- * @param parts What it has besides.
+ * @param parts What it has besides, with bindings in place of others.
  */
 export function pagedKernel(device: GPUDevice, pages: readonly ShapeArray[], parts?: KernelParts): KernelParts {
   const { columns, layerBytes } = pageShape(device);
@@ -33,7 +33,7 @@ export function pagedKernel(device: GPUDevice, pages: readonly ShapeArray[], par
   return {
     ...parts,
     bind: (groups) =>
-      groups.map((group) => ({
+      (parts?.bind?.(groups) ?? groups).map((group) => ({
         ...group,
         bindings: group.bindings.map((binding) => {
           const name = pages.find((page) => page === binding.name);

@@ -13,7 +13,7 @@ function unpacked(code: number, bits: number, largest: number): [number, number,
   return [(signs[0]! * x) / length, (signs[1]! * y) / length, z / length];
 }
 
-const normalOf = (code: number) => unpacked(code, 16, 0x7f7f);
+const normalOf = (code: number) => unpacked(code, 16, 0x7ffe);
 
 /** Directions all around, and those next to axes, diagonals and the equator, where octahedra fold. */
 function* directions(): Generator<[number, number, number]> {
@@ -34,20 +34,13 @@ function* directions(): Generator<[number, number, number]> {
 const angle = (a: readonly number[], b: readonly number[]) =>
   Math.hypot(a[1]! * b[2]! - a[2]! * b[1]!, a[2]! * b[0]! - a[0]! * b[2]!, a[0]! * b[1]! - a[1]! * b[0]!);
 
-it('rounds normals by less than 0.004°, to words that are finite floats', () => {
+it('rounds normals by less than 0.004°', () => {
   let furthest = 0;
-  const float = new Float32Array(1);
-  const word = new Uint32Array(float.buffer);
-  let infinite = 0;
   for (const normal of directions()) {
-    const code = packNormal(...normal);
-    const back = normalOf(code);
+    const back = normalOf(packNormal(...normal));
     expectSameSide(back, normal);
     furthest = Math.max(furthest, angle(back, normal));
-    word[0] = code;
-    if (!Number.isFinite(float[0])) infinite++;
   }
-  expect(infinite).toBe(0);
   expect((furthest * 180) / Math.PI).toBeLessThan(0.004);
   expect((furthest * 180) / Math.PI).toBeGreaterThan(0.001);
 });

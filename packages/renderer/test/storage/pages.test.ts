@@ -1,5 +1,6 @@
 import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
+import { compactKernel } from '../../src/integrator/compact-kernels';
 import { pagedKernel } from '../../src/integrator/paged-kernels';
 import { bindingsOf, KERNELS, kernelSource, type KernelFeatures } from '../../src/integrator/pipelines';
 import { pageParts, pageShape } from '../../src/storage/paged/pages';
@@ -98,4 +99,19 @@ describe.each<{ pages: readonly ShapeArray[] }>([
       for (const line of lines(plain)) expect(left.has(line), line).toBe(true);
     }
   });
+});
+
+// GPUs may flush denormal floats to zero, which the words of places are.
+it.each(['intersect', 'connect', 'shade', 'first'] as const)('%s loads compact shapes as words', (kernel) => {
+  for (const on of [false, true]) {
+    const words = kernelSource(kernel, features(on), compactKernel()).key;
+    expect(words).toContain('triangles: array<vec4u>;');
+    const paged = kernelSource(kernel, features(on), pagedKernel(device, ['triangles'], compactKernel())).key;
+    expect(paged).toContain('triangles: texture_2d_array<u32>;');
+    expect(paged).toMatch(/fn page_triangles\(.*\) *-> *vec4u/);
+    for (const text of [words, paged]) {
+      expect(text).toMatch(/bitcast<vec3f>\((page_)?triangles[[(]/);
+      expect(text).not.toMatch(/bitcast<(u32|vec3u|vec4f)>\((page_triangles|triangles|textureLoad\(triangles)/);
+    }
+  }
 });
