@@ -117,6 +117,8 @@ export interface FakeOptions {
   readonly onDenoise?: () => void;
   /** Called when a film is copied. */
   readonly onSave?: () => void;
+  /** Whether tracers take films of others. */
+  readonly resumes?: boolean;
   /** Called before an edit. */
   readonly onEdit?: (what: string, to: unknown, device: FakeDevice) => void;
   /** Gives the event loop, and files that are being written, time between samples. */
@@ -193,7 +195,7 @@ export function fakeBackend(fake: FakeOptions = {}): FakeRun {
         return filmOf(samples, width, height);
       },
       async restoreFilm(state: FilmState) {
-        if (state.width !== width)
+        if (state.width !== width || fake.resumes === false)
           throw new DeviceError('renderer/film-state', 'The saved film cannot be resumed here.');
         samples = state.samples;
         edits.push(['film', samples]);

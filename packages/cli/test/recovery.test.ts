@@ -72,6 +72,22 @@ describe('a render whose GPU is lost', () => {
     expect([io.waits.length, images(cwd)]).toEqual([0, ['m.png']]);
   });
 
+  it('starts again, and says so, where the new tracer does not take the film, as one of other shapes does not', async () => {
+    const cwd = folder();
+    const { io, tick } = ticking(cwd);
+    const seen: number[] = [];
+    const { fake } = gpus({
+      onSample(sample, _name, nth, device) {
+        tick();
+        if (nth === 1) seen.push(sample);
+        if (nth === 0 && sample === 50) throw device.lose();
+      },
+    });
+    const { code, err, edits } = await run(['render', 'm.glb', ...SIZE], cwd, { ...fake, resumes: false }, io);
+    expect([code, edits, seen.length, seen[0]], err).toEqual([0, [], 100, 1]);
+    expect(err).toContain('m.png: starts from the first sample');
+  });
+
   it('takes checkpoints rarely enough: each a second or more after the one before, whatever a sample takes', async () => {
     const cwd = folder();
     const io = fakeIo(cwd);
