@@ -2,7 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { poseMesh } from '@glanz/scene/pose';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { PathTracer, type FilmState, type PathTracerOptions } from '../../src/index';
 import { readAov } from '../aovs';
 import { gallery, limited, place, withAttributes } from '../gallery';
 import { poseOf, rigOf } from '../rigs';
@@ -49,11 +49,49 @@ function balls(): Scene {
   return exact(scene);
 }
 
+/** A ball of brushed metal with a normal map, whose tangents are left-handed in one half. */
+function brushed(): Scene {
+  const scene = createScene();
+  // A slope along the bitangent, which points the other way where the handedness changes.
+  const slope = { name: 'slope', width: 1, height: 1, data: new Float32Array([0.5, 0.7, 0.9, 1]) };
+  const image = scene.images.push(slope) - 1;
+  const texture = scene.textures.push({ image, color_space: 'linear' }) - 1;
+  addSphere(
+    scene,
+    0.7,
+    [0, 0, 0],
+    {
+      name: 'brushed',
+      parameters: { base_metalness: 1, specular_roughness: 0.4, specular_roughness_anisotropy: 0.7 },
+      textures: { geometry_normal: { texture, channels: 'rgb' } },
+    },
+    140,
+  );
+  const mesh = withAttributes(scene.meshes[0] as Mesh);
+  const tangents = (mesh.tangents as Float32Array).map((value, i) =>
+    (i & 3) < 3 ? value : (mesh.positions[3 * (i >> 2)] as number) < 0.1 ? -1 : 1,
+  );
+  const { colors, ...rest } = mesh;
+  scene.meshes[0] = { ...rest, tangents };
+  scene.lights.push({ type: 'directional', name: 'sun', direction: [0.3, -0.5, -1], color: [1, 1, 1], intensity: 3 });
+  return scene;
+}
+
 const ball = (segments: number): Mesh => {
   const scene = createScene();
   addSphere(scene, 0.25, [0, 0, 0.2], lambert(0.5), segments);
   return exact(scene).meshes[0] as Mesh;
 };
+
+/** Without common vertices. */
+const separated = (mesh: Mesh): Mesh => ({
+  ...mesh,
+  positions: Float32Array.from({ length: 3 * mesh.indices.length }, (_, i) => {
+    const vertex = mesh.indices[Math.floor(i / 3)] as number;
+    return mesh.positions[3 * vertex + (i % 3)] as number;
+  }),
+  indices: mesh.indices.map((_, i) => i),
+});
 
 const withMesh = (scene: Scene, index: number, mesh: Mesh): Scene => ({
   ...scene,
@@ -95,20 +133,7 @@ describe('compact shapes', () => {
   });
 
   it('differ from others by the rounding of normals and tangents alone', async () => {
-    const scene = createScene();
-    addSphere(
-      scene,
-      0.7,
-      [0, 0, 0],
-      {
-        name: 'brushed',
-        parameters: { base_metalness: 1, specular_roughness: 0.4, specular_roughness_anisotropy: 0.7 },
-      },
-      140,
-    );
-    scene.meshes[0] = withAttributes(scene.meshes[0] as Mesh);
-    Object.assign(scene.meshes[0], { colors: undefined });
-    scene.lights.push({ type: 'directional', name: 'sun', direction: [0.3, -0.5, -1], color: [1, 1, 1], intensity: 3 });
+    const scene = brushed();
     const make = (given: PathTracerOptions) =>
       PathTracer.create(device, scene, { ...given, aovs: ['normal'], maxDepth: 1 });
     const [compact, plain] = await Promise.all([make(COMPACT), make(options)]);
@@ -123,6 +148,25 @@ describe('compact shapes', () => {
     expect(brightest).toBeGreaterThan(0.5);
     expect(furthest(image, expected)).toBeLessThan(2e-3 * brightest);
     for (const tracer of [compact, plain]) tracer.destroy();
+  });
+
+  it('continue the films of compact shapes alone, and others the films of others', async () => {
+    const scene = brushed();
+    const make = (given: PathTracerOptions) => PathTracer.create(device, scene, { ...given, maxDepth: 1 });
+    const tracers = await Promise.all([make(COMPACT), make(options)]);
+    for (const tracer of tracers) await film(tracer);
+    const saved = await Promise.all(tracers.map((tracer) => tracer.saveFilm()));
+    for (const [i, tracer] of tracers.entries()) {
+      await expect(tracer.restoreFilm(saved[1 - i] as FilmState)).rejects.toMatchObject({
+        code: 'renderer/film-state',
+      });
+      const expected = await film(tracer, 8);
+      // A tracer of the same scene, as after the loss of a device, decides as this one did.
+      const next = await make(i === 0 ? COMPACT : options);
+      await next.restoreFilm(saved[i] as FilmState);
+      expect(await film(next, 8)).toEqual(expected);
+      for (const done of [tracer, next]) done.destroy();
+    }
   });
 
   it('follow edits', async () => {
@@ -144,12 +188,29 @@ describe('compact shapes', () => {
     moved('ball 8', { visible: true });
     await tracer.setVisibility('ball 8', true);
     await check();
-    // A smaller mesh that is written into the region of the one before, and a larger one that does not fit there.
-    for (const segments of [20, 56]) {
-      await tracer.replaceMesh(4, ball(segments));
-      scene = withMesh(scene, 4, ball(segments));
+    // A smaller mesh that is written into the region of the one before, and a larger one that does not fit there. One
+    // with as many triangles as before, but more vertices, does not either: the next mesh's follow.
+    for (const mesh of [ball(20), ball(56), separated(ball(56))]) {
+      await tracer.replaceMesh(4, mesh);
+      scene = withMesh(scene, 4, mesh);
       await check();
     }
+    tracer.destroy();
+  });
+
+  it('get and lose normals in their place', async () => {
+    const scene = balls();
+    const tracer = await PathTracer.create(device, scene, COMPACT);
+    const { shapes } = tracer.statistics.memory;
+    const flat = ball(48);
+    const films: Float32Array[] = [];
+    for (const mesh of [flat, { ...flat, normals: flat.positions.map((_, i) => [0, 0.6, 0.8][i % 3]!) }, flat]) {
+      await tracer.replaceMesh(4, mesh);
+      films.push(await film(tracer));
+      expect(films.at(-1)).toEqual((await fresh(withMesh(scene, 4, mesh), COMPACT)).film);
+      expect(tracer.statistics.memory.shapes).toBe(shapes);
+    }
+    expect(films[1]).not.toEqual(films[0]);
     tracer.destroy();
   });
 
@@ -172,7 +233,7 @@ describe('compact shapes', () => {
   });
 
   it('lie in textures where they are larger than a binding', async () => {
-    const scene = exact(gallery(100));
+    const scene = gallery(100);
     const {
       device: small,
       shapes,
@@ -183,7 +244,7 @@ describe('compact shapes', () => {
     });
     const tracer = await PathTracer.create(small, scene, COMPACT);
     expect(shapes()).toEqual(['texture attributes', 'texture nodes', 'texture triangles']);
-    expect(await film(tracer)).toEqual((await fresh(scene)).film);
+    expect(await film(tracer)).toEqual((await fresh(scene, COMPACT)).film);
     tracer.destroy();
     expect([...live.values()]).toEqual([]);
   });
