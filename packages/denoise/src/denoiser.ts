@@ -178,14 +178,16 @@ export class Denoiser {
     return chain;
   }
 
-  /** @returns `undefined` where shaders compute the layers. */
+  /** @returns `undefined` where shaders compute the layers, or WebAssembly's memory is refused: then they do. */
   async #prepareWasm(width: number, height: number): Promise<WasmChain | undefined> {
-    if (!this.#wasm || (this.#wasmChain?.width === width && this.#wasmChain.height === height)) return this.#wasmChain;
+    // A chain of shaders alone is there where memory was refused for this size.
+    const made = this.#wasmChain ?? this.#chain;
+    if (!this.#wasm || (made?.width === width && made.height === height)) return this.#wasmChain;
     // Shaders of another size are not of use to encode() any more.
     for (const chain of [this.#wasmChain, this.#chain]) chain?.destroy();
     this.#wasmChain = this.#chain = undefined;
-    const chain = await this.#wasm({ width, height, maxMemory: this.#options.maxMemory ?? 2 ** 30 });
-    if (this.#destroyed) chain.destroy();
+    const chain = await this.#wasm({ width, height, maxMemory: this.#options.maxMemory });
+    if (this.#destroyed) chain?.destroy();
     this.#expectAlive();
     return (this.#wasmChain = chain);
   }

@@ -48,8 +48,8 @@ export interface DenoiserOptions {
    * Whether the CPU computes the layers, in WebAssembly, on the calling thread in slices of about 6 ms; the GPU still
    * encodes and decodes. Values between layers are in single precision, whatever `storage` says. Default: on adapters
    * that are software (SwiftShader, lavapipe, WARP); on SwiftShader it takes a tenth of the time or less. A page with a
-   * content security policy allows it with `'wasm-unsafe-eval'` in `script-src`; where it is forbidden, or the browser has no
-   * SIMD, shaders compute as elsewhere, and {@link DenoiseResult.kernels} says so.
+   * content security policy allows it with `'wasm-unsafe-eval'` in `script-src`. Where it is forbidden, the browser has
+   * no SIMD, or no memory for the smallest tile, shaders compute as elsewhere, and {@link DenoiseResult.kernels} says so.
    */
   readonly webAssembly?: boolean;
   /** Milliseconds that one submission should take at most, so that a page stays responsive. Default 8. */

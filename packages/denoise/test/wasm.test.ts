@@ -4,9 +4,9 @@ import { afterEach, beforeAll, describe, expect, it, test, vi } from 'vitest';
 import { denoiseOnCpu } from '../src/cpu/index';
 import { DenoiseError, Denoiser, type DenoiserInput, type DenoiserOptions } from '../src/index';
 import { readNetwork } from '../src/network';
-import { WasmNetwork } from '../src/wasm/evaluator';
-import { kernelBytes, type WasmKernels } from '../src/wasm/kernels';
-import { planWasm } from '../src/wasm/plan';
+import { Evaluator, WasmNetwork } from '../src/wasm/evaluator';
+import { compileWasm, kernelBytes, type WasmKernels } from '../src/wasm/kernels';
+import { bytesOf, planWasm } from '../src/wasm/plan';
 import { denoiseOnGpu, download, outputBuffer, upload } from './gpu';
 import { CHECKED_CASES, MISSING, differences, imagesOf, tolerances, weightsOf } from './oracle';
 import { numbersFrom, randomImages, randomNetwork } from './random-network';
@@ -111,32 +111,75 @@ describe('memory for WebAssembly', () => {
     expect(different(tiled.rgba, whole.rgba)).toBe(0);
   });
 
-  it('that is refused leads to smaller tiles, and to an error where not even those fit', async () => {
-    const long = randomImages(900, 64);
+  describe('that is refused', () => {
     const { Memory } = WebAssembly;
-    const asked: number[] = [];
-    const refuseAbove = (pages: number) =>
-      (WebAssembly.Memory = class extends Memory {
+    const long = randomImages(900, 64);
+    /** Pages that were asked for. */
+    let asked: number[];
+    const refuseAbove = (pages: number) => {
+      asked = [];
+      WebAssembly.Memory = class extends Memory {
         constructor(descriptor: WebAssembly.MemoryDescriptor) {
           asked.push(descriptor.initial);
           if (descriptor.initial > pages) throw new RangeError('could not allocate memory');
           super(descriptor);
         }
-      });
-    try {
+      };
+    };
+    afterEach(() => void (WebAssembly.Memory = Memory));
+
+    it('leads to smaller tiles, with the same bits', async () => {
       const whole = await compute(weights, long, { input: 'hdr' });
       refuseAbove(100);
       const tiled = await compute(weights, long, { input: 'hdr' });
       expect(asked.filter((pages) => pages > 100).length).toBeGreaterThan(0);
+      expect(tiled).toMatchObject({ kernels: 'webAssembly' });
       expect(tiled.tiles).toBeGreaterThan(1);
       expect(different(tiled.rgba, whole.rgba)).toBe(0);
+      const onCpu = await denoiseOnCpu(weights, long, { webAssembly: true });
+      expect(differences(onCpu, whole.rgb).max).toBeLessThan(2e-4);
+    });
+
+    it('even for the smallest tile, leaves the work to shaders, or to plain loops without a GPU', async () => {
       refuseAbove(1);
-      const error = await compute(weights, long, { input: 'hdr' }).catch((cause: unknown) => cause);
-      expect(error).toBeInstanceOf(DenoiseError);
-      expect((error as DenoiseError).code).toBe('denoise/memory');
-    } finally {
+      const { images, result } = bind(45, 37);
+      const shaders = await Denoiser.create(device, weights, { webAssembly: false });
+      await shaders.denoise(images);
+      const expected = await result();
+      shaders.destroy();
+      const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+      expect(await denoiser.denoise(images)).toMatchObject({ kernels: 'shaders' });
+      expect(different(await result(), expected)).toBe(0);
+      expect(asked.length).toBeGreaterThan(0);
+      // Not asked for again while the size is the same.
+      asked = [];
+      expect(await denoiser.denoise(images)).toMatchObject({ kernels: 'shaders' });
+      expect(asked).toEqual([]);
+      // Another size may have room.
       WebAssembly.Memory = Memory;
-    }
+      expect(await denoiser.denoise(bind(16, 16).images)).toMatchObject({ kernels: 'webAssembly' });
+      denoiser.destroy();
+      refuseAbove(1);
+      const small = randomImages(45, 37);
+      const plain = await denoiseOnCpu(weights, small);
+      expect(different(await denoiseOnCpu(weights, small, { webAssembly: true }), plain)).toBe(0);
+      expect(asked.length).toBeGreaterThan(0);
+    });
+
+    it('by maxMemory is an error that names it', async () => {
+      const error = await compute(weights, long, { input: 'hdr', maxMemory: 1000 }).catch((cause: unknown) => cause);
+      expect(error).toBeInstanceOf(DenoiseError);
+      expect(error).toMatchObject({ code: 'denoise/memory', message: expect.stringContaining('maxMemory is 1000') });
+    });
+
+    it('is at most 1 GiB for values, beyond which there are tiles', async () => {
+      refuseAbove(1);
+      const [module, network, size] = [(await compileWasm())!, readNetwork(weights), 4096];
+      expect(bytesOf(planWasm(network, size, size))).toBeGreaterThan(2 ** 30);
+      expect(await Evaluator.create(module, [network], { width: size, height: size })).toBeUndefined();
+      expect(asked[0]! * 65536).toBeLessThan(2 ** 30 + 2 ** 20);
+      expect(asked[0]! * 65536).toBeGreaterThan(2 ** 28);
+    });
   });
 });
 
@@ -170,14 +213,14 @@ describe('slices of WebAssembly', () => {
 });
 
 describe('work in WebAssembly', () => {
-  /** Time passes at each look at the clock: each step of the work is a slice of its own. */
+  /** Time passes each time the clock is read: each step of the work is a slice of its own. */
   function fastClock() {
     let now = 0;
     return vi.spyOn(performance, 'now').mockImplementation(() => (now += 20));
   }
   afterEach(() => vi.restoreAllMocks());
 
-  it('returns to the event loop after each step where those are slow, ends at an abort, and is right the next time', async () => {
+  it('returns to the event loop after slow steps, ends at an abort, and is right the next time', async () => {
     const { images, result } = bind(64, 48);
     const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
     await denoiser.denoise(images);
@@ -242,7 +285,7 @@ describe('the choice between WebAssembly and shaders', () => {
     expect(await kernelsOf({ webAssembly: true }, hardware())).toBe('webAssembly');
   });
 
-  it('falls on shaders where a policy forbids WebAssembly', async () => {
+  it('falls back to shaders where a policy forbids WebAssembly', async () => {
     const compile = vi.spyOn(WebAssembly, 'compile').mockRejectedValue(new WebAssembly.CompileError('unsafe-eval'));
     expect(await kernelsOf({})).toBe('shaders');
     expect(compile).toHaveBeenCalled();

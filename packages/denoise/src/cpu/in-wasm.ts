@@ -8,8 +8,9 @@ import type { Planes } from './layers';
  * Evaluates a network in WebAssembly.
  *
  * @param first The encoded images, of the padded size.
- * @returns What the last layer computes; `undefined` where there is no WebAssembly with SIMD, or it is forbidden.
- * @throws {DenoiseError} `denoise/memory`; the signal's reason where it aborts.
+ * @returns What the last layer computes; `undefined` where there is no WebAssembly with SIMD, it is forbidden, or the
+ * engine has no memory for it.
+ * @throws the signal's reason where it aborts.
  */
 export async function evaluateInWasm(
   network: Network,
@@ -19,8 +20,9 @@ export async function evaluateInWasm(
   const module = await compileWasm();
   if (!module) return undefined;
   const { width, height } = first;
-  const evaluator = await Evaluator.create(module, [network], { width, height, maxMemory: 2 ** 32 });
-  const [wasm] = evaluator.networks as [(typeof evaluator.networks)[0]];
+  const evaluator = await Evaluator.create(module, [network], { width, height });
+  const wasm = evaluator?.networks[0];
+  if (!wasm) return undefined;
   const { floats, input, output, tiling } = wasm;
   const data = new Float32Array(3 * width * height);
   const pause = slices(() => signal?.throwIfAborted());

@@ -33,9 +33,9 @@ export interface CpuDenoiseOptions {
   /** As in {@link DenoiserOptions}. */
   readonly prefilter?: DenoiserOptions['prefilter'];
   /**
-   * Whether layers are computed in WebAssembly with SIMD where that is available, seven times as fast or more; no
-   * effect with `onLayer`. Results differ by the rounding of sums, which are in single precision there and in double precision
-   * elsewhere. Default false.
+   * Whether layers are computed in WebAssembly with SIMD, seven times as fast or more, where that is available and its
+   * memory is (at most 1 GiB, beyond which the image is computed in tiles); no effect with `onLayer`. Results differ by
+   * the rounding of sums, which are in single precision there and in double precision elsewhere. Default false.
    */
   readonly webAssembly?: boolean;
   /** Ends the work; the promise rejects with the signal's reason. */

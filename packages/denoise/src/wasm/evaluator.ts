@@ -17,8 +17,8 @@ export interface EvaluatorSize {
   /** Pixels of whole images. */
   readonly width: number;
   readonly height: number;
-  /** Bytes of values between layers at most. */
-  readonly maxMemory: number;
+  /** Bytes of values between layers at most. Default 1 GiB. */
+  readonly maxMemory?: number | undefined;
 }
 
 /** A network and how it computes an image: its tiles, and the plan of one. */
@@ -28,7 +28,8 @@ interface TiledNetwork {
   readonly plan: WasmPlan;
 }
 
-function tiled(network: Network, { width, height }: EvaluatorSize, memory: number): TiledNetwork {
+/** @returns The fewest tiles of an image that fit into `memory` bytes, or the bytes that the smallest tile needs. */
+function tiled(network: Network, { width, height }: EvaluatorSize, memory: number): TiledNetwork | number {
   let min = Infinity;
   let plan: WasmPlan | undefined;
   const tiling = tileImage(width, height, network.overlap, (w, h) => {
@@ -37,14 +38,10 @@ function tiled(network: Network, { width, height }: EvaluatorSize, memory: numbe
     min = Math.min(min, bytes);
     return bytes <= memory;
   });
-  if (tiling && plan) return { network, tiling, plan };
-  throw new DenoiseError(
-    'denoise/memory',
-    `The smallest tile of ${width} × ${height} pixels needs ${min} bytes of memory, and ${Math.floor(memory)} are allowed or free. Allow more by maxMemory, free memory, or use a smaller network.`,
-  );
+  return tiling && plan ? { network, tiling, plan } : min;
 }
 
-/** The memory for weights and values, or `undefined` where there is none. */
+/** The memory for weights and values, or `undefined` where the engine refuses it. */
 function tryMemory(bytes: number): WebAssembly.Memory | undefined {
   const pages = Math.ceil(bytes / PAGE);
   if (pages > MAX_PAGES) return undefined;
@@ -196,15 +193,29 @@ export class Evaluator {
     this.bytes = bytes;
   }
 
-  /** @throws {DenoiseError} `denoise/memory`. */
+  /**
+   * @returns `undefined` where the engine has no memory for the smallest tile.
+   * @throws {DenoiseError} `denoise/memory` where `maxMemory` is less than that needs.
+   */
   static async create(
     module: WebAssembly.Module,
     networks: readonly Network[],
     size: EvaluatorSize,
-  ): Promise<Evaluator> {
-    let allowed = size.maxMemory;
+  ): Promise<Evaluator | undefined> {
+    const { width, height, maxMemory = 2 ** 30 } = size;
+    let allowed = maxMemory;
     for (;;) {
-      const parts = networks.map((network) => tiled(network, size, allowed));
+      const parts: TiledNetwork[] = [];
+      for (const network of networks) {
+        const part = tiled(network, size, allowed);
+        if (typeof part !== 'number') parts.push(part);
+        else if (allowed < maxMemory) return undefined;
+        else
+          throw new DenoiseError(
+            'denoise/memory',
+            `The smallest tile of ${width} × ${height} pixels needs ${part} bytes in WebAssembly, and maxMemory is ${maxMemory}. Allow more, or use a smaller network.`,
+          );
+      }
       let at = TABLE_BYTES;
       const weights = parts.map(({ plan }) =>
         plan.layers.map((planned) => {

@@ -55,8 +55,8 @@ export interface WasmRun {
   readonly lost: Promise<never>;
 }
 
-/** Makes chains by kernels that are compiled. */
-export type StartedWasm = (size: EvaluatorSize) => Promise<WasmChain>;
+/** Makes chains by kernels that are compiled; `undefined` where the engine has no memory for the smallest tile. */
+export type StartedWasm = (size: EvaluatorSize) => Promise<WasmChain | undefined>;
 
 /**
  * Compiles what does not depend on the image size.
@@ -105,13 +105,16 @@ export class WasmChain {
     this.height = height;
   }
 
-  /** @throws {DenoiseError} `denoise/memory`, `denoise/pipeline`. */
+  /**
+   * @returns `undefined` where the engine has no memory for the smallest tile.
+   * @throws {DenoiseError} `denoise/memory`, `denoise/pipeline`.
+   */
   static async create(
     device: GPUDevice,
     stages: readonly Stage[],
     module: WebAssembly.Module,
     size: EvaluatorSize,
-  ): Promise<WasmChain> {
+  ): Promise<WasmChain | undefined> {
     const { width, height } = size;
     const networks = stages.map(({ network }) => network);
     const bindings = { 3: 'read', 5: 'write', 6: 'uniform', 7: 'read', 8: 'read' } as const;
@@ -123,6 +126,7 @@ export class WasmChain {
         ),
       ),
     ]);
+    if (!evaluator) return undefined;
     const chunk = Math.max(
       ...evaluator.networks.map((network) => {
         const quads = network.input.channels / 4;
