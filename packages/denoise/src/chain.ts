@@ -92,7 +92,7 @@ export class Chain {
     if (images.width !== this.width || images.height !== this.height)
       throw new DenoiseError(
         'denoise/size',
-        `Nothing is prepared for ${images.width} × ${images.height} pixels: await prepare() with this size before encode().`,
+        `Nothing is prepared for ${images.width} × ${images.height} pixels: await prepare(${images.width}, ${images.height}, { encode: true }) before encode().`,
       );
     const bound = boundChain(this.#device, this.#stages, this.#guides, images);
     // Where all of them are right: nothing has been written before an error.

@@ -11,6 +11,7 @@ import type {
   DenoiseResult,
   DenoiserInput,
   DenoiserOptions,
+  DenoiserPrepareOptions,
   DenoiserStorage,
 } from './options';
 import { Pace } from './pace';
@@ -94,16 +95,16 @@ export class Denoiser {
   }
 
   /**
-   * Makes memory and shaders for images of a size, so that the first one does not wait for them. Where WebAssembly
-   * computes the layers, the shaders are compiled too, for {@link encode}: {@link denoise} alone takes less there.
+   * Makes what {@link denoise} needs for images of a size, so that the first one does not wait for it: memory, and
+   * shaders unless WebAssembly computes the layers. For {@link encode} pass `encode: true`, which makes those there too.
    *
    * @throws {DenoiseError} `denoise/size`, `denoise/memory`, `denoise/limit`, `denoise/pipeline`, `denoise/destroyed`.
    */
-  prepare(width: number, height: number): Promise<void> {
+  prepare(width: number, height: number, { encode = false }: DenoiserPrepareOptions = {}): Promise<void> {
     return this.#inTurn(async () => {
       checkSize(width, height);
-      await this.#prepareWasm(width, height);
-      await this.#prepare(width, height);
+      const wasm = await this.#prepareWasm(width, height);
+      if (!wasm || encode) await this.#prepare(width, height);
     });
   }
 
@@ -132,13 +133,16 @@ export class Denoiser {
    * on the queue, ahead of the encoder: submit it before the next call of any method.
    *
    * @throws {DenoiseError} as {@link denoise} does; `denoise/size` too where {@link prepare} was not called for this size
-   * before.
+   * before, with `encode: true`.
    */
   encode(encoder: GPUCommandEncoder, images: DenoiseImages): void {
     this.#expectAlive();
     checkSize(images.width, images.height);
     if (!this.#chain)
-      throw new DenoiseError('denoise/size', 'Nothing is prepared: await prepare() with the size before encode().');
+      throw new DenoiseError(
+        'denoise/size',
+        'No shaders are prepared: await prepare(width, height, { encode: true }) before encode().',
+      );
     const jobs = this.#chain.jobs(images);
     const pass = encoder.beginComputePass({ label: 'denoise' });
     new JobCursor(jobs).encode(pass, Infinity);

@@ -8,6 +8,7 @@ export type {
   DenoiseResult,
   DenoiserInput,
   DenoiserOptions,
+  DenoiserPrepareOptions,
   DenoiserStorage,
   ImageBuffer,
   LayerSize,

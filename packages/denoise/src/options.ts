@@ -64,6 +64,15 @@ export interface DenoiserOptions {
   readonly shapeOf?: (layer: LayerSize, width: number, height: number) => KernelFamily | undefined;
 }
 
+/** Options for {@link Denoiser.prepare}. */
+export interface DenoiserPrepareOptions {
+  /**
+   * Whether {@link Denoiser.encode} is to be called, which shaders always compute. Where {@link Denoiser.denoise} uses
+   * shaders too, they are made in any case. Default false.
+   */
+  readonly encode?: boolean;
+}
+
 /** What a kernel's shape is chosen by. */
 export interface LayerSize {
   /** Name in the archive, e.g. `dec_conv1a`. */

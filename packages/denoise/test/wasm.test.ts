@@ -299,6 +299,30 @@ describe('the choice between WebAssembly and shaders', () => {
     }
   });
 
+  it('prepares what denoise() uses, and shaders for encode() where that is asked for', async () => {
+    const { images } = bind(48, 32);
+    const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+    const compile = vi.spyOn(device, 'createComputePipelineAsync');
+    const made = vi.spyOn(device, 'createBuffer');
+    try {
+      await denoiser.prepare(48, 32);
+      const { memoryBytes } = denoiser;
+      expect(compile.mock.calls.map(([{ label }]) => label)).toEqual(['denoise decode']);
+      const buffers = made.mock.calls.length;
+      await denoiser.denoise(images);
+      expect(compile).toHaveBeenCalledTimes(1);
+      expect(made).toHaveBeenCalledTimes(buffers);
+      expect(denoiser.memoryBytes).toBe(memoryBytes);
+      await denoiser.prepare(48, 32, { encode: true });
+      expect(compile.mock.calls.length).toBeGreaterThan(1);
+      expect(denoiser.memoryBytes).toBeGreaterThan(memoryBytes);
+    } finally {
+      compile.mockRestore();
+      made.mockRestore();
+      denoiser.destroy();
+    }
+  });
+
   it('leaves encode() to shaders', async () => {
     const { images, result } = bind(32, 32);
     const shaders = await Denoiser.create(device, weights, { webAssembly: false });
@@ -306,10 +330,16 @@ describe('the choice between WebAssembly and shaders', () => {
     const expected = await result();
     shaders.destroy();
     const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
-    await denoiser.prepare(32, 32);
     await denoiser.denoise(images);
     expect(different(await result(), expected)).toBeGreaterThan(0);
     const encoder = device.createCommandEncoder();
+    expect(() => denoiser.encode(encoder, images)).toThrow(
+      expect.objectContaining({
+        code: 'denoise/size',
+        message: expect.stringContaining('prepare(width, height, { encode: true })'),
+      }),
+    );
+    await denoiser.prepare(32, 32, { encode: true });
     denoiser.encode(encoder, images);
     device.queue.submit([encoder.finish()]);
     expect(different(await result(), expected)).toBe(0);
