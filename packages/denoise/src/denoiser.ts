@@ -7,6 +7,7 @@ import { checkSize } from './images';
 import { JobCursor, costOf } from './jobs';
 import type {
   DenoiseImages,
+  DenoiseKernels,
   DenoiseOptions,
   DenoiseResult,
   DenoiserInput,
@@ -87,6 +88,14 @@ export class Denoiser {
   /** Channels that the network takes: 3 (the image), 6 (and albedo) or 9 (and normal). */
   get channels(): 3 | 6 | 9 {
     return this.#networks.at(-1)![1].channels;
+  }
+
+  /**
+   * What computes the layers. Shaders do nevertheless where WebAssembly's memory is refused, see
+   * {@link DenoiseResult.kernels}.
+   */
+  get kernels(): DenoiseKernels {
+    return this.#wasm ? 'webAssembly' : 'shaders';
   }
 
   /** Bytes on the GPU, and of WebAssembly's memory where that is used: weights, and what the last size needs. */

@@ -99,6 +99,47 @@ describe('FilmDenoiser', () => {
     expect(farthest(passed, held)).toBeGreaterThan(1e-4);
   });
 
+  it.each(['albedo', 'normal'] as const)(
+    'takes copies where WebAssembly computes: buffers may be freed when it has begun, with a network for %s',
+    async (first) => {
+      const device = await testDevice();
+      const data = { color: noisy(0.3), albedo: noisy(0.1, 2), normal: noisy(0.2, 3), variance: noisy(0, 4) };
+      const buffers = () => {
+        const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC;
+        const upload = (floats: Float32Array<ArrayBuffer>) => {
+          const buffer = device.createBuffer({ size: floats.byteLength, usage });
+          device.queue.writeBuffer(buffer, 0, floats);
+          return buffer;
+        };
+        const [color, albedo, normal] = [upload(data.color), upload(data.albedo), upload(data.normal)];
+        return { color, albedo, normal, variance: upload(data.variance) };
+      };
+      // The network that cleans one guide comes first: the other is read when that has ended.
+      const weights = { color: randomNetwork(9), [first]: randomNetwork(3) };
+      const denoiser = await FilmDenoiser.create(device, weights, { webAssembly: true });
+      const denoise = async (onProgress?: (images: ReturnType<typeof buffers>) => void) => {
+        const images = buffers();
+        const result = await denoiser.denoise(
+          { width: WIDTH, height: HEIGHT, ...images },
+          onProgress ? { onProgress: () => onProgress(images) } : {},
+        );
+        expect(result.kernels).toBe('webAssembly');
+        const pixels = await denoiser.read(result);
+        for (const buffer of Object.values(images)) buffer.destroy();
+        return pixels;
+      };
+      const expected = await denoise();
+      let calls = 0;
+      const found = await denoise((images) => {
+        calls++;
+        for (const buffer of Object.values(images)) buffer.destroy();
+      });
+      expect(calls).toBeGreaterThan(0);
+      expect(found).toEqual(expected);
+      denoiser.destroy();
+    },
+  );
+
   it('asks for the AOVs that a tracer lacks', async () => {
     const device = await testDevice();
     const denoiser = await FilmDenoiser.create(device, { color: randomNetwork(9) });

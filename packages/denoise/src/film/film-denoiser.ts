@@ -16,6 +16,9 @@ import type {
 /** From so many samples on a tracer knows the variance of its film. */
 const VARIANCE_SAMPLES = 32;
 
+/** Images that are copied, besides the film, where WebAssembly computes. */
+const COPIED = ['albedo', 'normal', 'variance'] as const;
+
 /** What is kept for images of a size. */
 interface Buffers {
   readonly width: number;
@@ -28,6 +31,8 @@ interface Buffers {
   readonly tiles: GPUBuffer;
   /** In place of a variance that is not given. */
   readonly noVariance: GPUBuffer;
+  /** Of {@link COPIED}; empty where shaders compute. */
+  readonly copies: readonly GPUBuffer[];
 }
 
 /**
@@ -84,7 +89,7 @@ export class FilmDenoiser {
     }
   }
 
-  /** Bytes on the GPU: weights, and what the last size needs. */
+  /** Bytes on the GPU, and of WebAssembly's memory where that is used: weights, and what the last size needs. */
   get memoryBytes(): number {
     const own = this.#buffers ? gpuBuffers(this.#buffers).reduce((sum, { size }) => sum + size, 0) : 0;
     return own + this.#denoiser.memoryBytes;
@@ -164,7 +169,8 @@ export class FilmDenoiser {
     });
     this.#release();
     const tiles = 16 * Math.ceil(width / BLEND_TILE) * Math.ceil(height / BLEND_TILE);
-    const [size, film, held, denoised, result, errorTiles, noVariance] = (await this.#make(width, height, [
+    const copied = this.#denoiser.kernels === 'webAssembly' ? COPIED : [];
+    const [size, film, held, denoised, result, errorTiles, noVariance, ...copies] = (await this.#make(width, height, [
       { label: 'denoise size', size: 16, usage: UNIFORM | COPY_DST },
       image('film', COPY_DST),
       image('held', 0),
@@ -172,8 +178,9 @@ export class FilmDenoiser {
       image('result', COPY_SRC | COPY_DST),
       image('tiles', 0, tiles),
       image('no variance', 0, 16),
-    ])) as [GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer];
-    const buffers = { width, height, size, film, held, denoised, result, tiles: errorTiles, noVariance };
+      ...copied.map((name) => image(name, COPY_DST)),
+    ])) as [GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, GPUBuffer, ...GPUBuffer[]];
+    const buffers = { width, height, size, film, held, denoised, result, tiles: errorTiles, noVariance, copies };
     return (this.#buffers = buffers);
   }
 
@@ -197,7 +204,7 @@ export class FilmDenoiser {
   async #run(images: FilmImages, { blend = true, ...options }: DenoiseFilmOptions): Promise<DenoisedFilm> {
     options.signal?.throwIfAborted();
     this.#expectAlive();
-    const { width, height, color, albedo, normal, variance } = images;
+    const { width, height, color, variance } = images;
     checkSize(width, height);
     const bytes = 16 * width * height;
     if (color.size < bytes || !(color.usage & STORAGE) || !(color.usage & COPY_SRC))
@@ -215,15 +222,27 @@ export class FilmDenoiser {
     queue.writeBuffer(buffers.size, 0, Uint32Array.of(width, height, variance ? 1 : 0, 0));
     const groups = [Math.ceil(width / 8), Math.ceil(height / 8)] as const;
     // The film may get samples meanwhile: all that follows sees the same one.
-    this.#submit((encoder) => encoder.copyBufferToBuffer(color, 0, buffers.film, 0, bytes));
+    const read = { albedo: images.albedo, normal: images.normal, variance };
+    this.#submit((encoder) => {
+      encoder.copyBufferToBuffer(color, 0, buffers.film, 0, bytes);
+      // WebAssembly takes seconds, in which a tracer may show another view, or free its buffers.
+      for (const [i, copy] of buffers.copies.entries()) {
+        const name = COPIED[i]!;
+        const image = read[name];
+        // What is wrong with an image, the denoiser says.
+        if (!image || image.size < bytes || !(image.usage & COPY_SRC)) continue;
+        encoder.copyBufferToBuffer(image, 0, copy, 0, bytes);
+        read[name] = copy;
+      }
+    });
     this.#dispatch(this.#kernels.fireflies, buffers, { 3: buffers.held }, groups);
     const { kernels } = await this.#denoiser.denoise(
-      { width, height, color: buffers.held, albedo, normal, output: buffers.denoised },
+      { width, height, color: buffers.held, albedo: read.albedo, normal: read.normal, output: buffers.denoised },
       options,
     );
     this.#expectAlive();
     if (!blend) return { buffer: buffers.denoised, width, height, kernels };
-    const inputs = { 2: buffers.denoised, 4: variance ?? buffers.noVariance };
+    const inputs = { 2: buffers.denoised, 4: read.variance ?? buffers.noVariance };
     this.#dispatch(this.#kernels.errors, buffers, { ...inputs, 3: buffers.tiles }, groups);
     this.#dispatch(this.#kernels.blend, buffers, { ...inputs, 3: buffers.result, 5: buffers.tiles }, groups);
     await queue.onSubmittedWorkDone();
@@ -257,4 +276,4 @@ export class FilmDenoiser {
   }
 }
 
-const gpuBuffers = ({ width: _w, height: _h, ...buffers }: Buffers): GPUBuffer[] => Object.values(buffers);
+const gpuBuffers = ({ width: _w, height: _h, ...buffers }: Buffers): GPUBuffer[] => Object.values(buffers).flat();

@@ -37,7 +37,11 @@ export interface FilmDenoiserOptions {
   readonly signal?: AbortSignal | undefined;
 }
 
-/** A film in GPU buffers: four floats a pixel, without gaps, the top row first. */
+/**
+ * A film in GPU buffers: four floats a pixel, without gaps, the top row first. `color` is copied before it is denoised.
+ * Where WebAssembly computes, which takes seconds, the others are copied too if they have the usage `COPY_SRC`: after
+ * that they may change. Buffers that are not copied stay as they are until the result is there.
+ */
 export interface FilmImages {
   /** Pixels, 1 to 16384. */
   readonly width: number;
@@ -51,8 +55,8 @@ export interface FilmImages {
   readonly normal: GPUBuffer;
   /**
    * Usage `STORAGE`. Variance of the mean that `color` is, in the first three of four floats a pixel; numbers that are
-   * not finite are unknown. With it the film is shown as it is where it has converged. Default: estimated from the image alone, which
-   * takes some of the detail that a network loses for noise.
+   * not finite are unknown. With it the film is shown as it is where it has converged. Default: estimated from the image
+   * alone, which takes some of the detail that a network loses for noise.
    */
   readonly variance?: GPUBuffer | undefined;
 }
