@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl/error';
 import { DenoiseError } from './error';
 import { readNetwork } from './network';
 import type { DenoiserInput, DenoiserOptions } from './options';
@@ -60,14 +61,18 @@ export function readNetworks(
   return networks;
 }
 
-/** WebAssembly that computes the layers of a denoiser with these options; `undefined` where shaders do. */
+/**
+ * WebAssembly that computes the layers of a denoiser with these options; `undefined` where shaders do.
+ *
+ * @throws {DenoiseError} `denoise/pipeline`. `GlanzError` `wgsl/chunk` where its file cannot be loaded.
+ */
 export async function wasmFor(
   device: GPUDevice,
   networks: readonly NetworkOf[],
   { webAssembly = isSoftware(device) }: Pick<DenoiserOptions, 'webAssembly'>,
 ): Promise<StartedWasm | undefined> {
   if (!webAssembly) return undefined;
-  // Few devices want it: others do not load this. Without it shaders do the work.
-  const chain = await import('./wasm/wasm-chain').catch(() => undefined);
-  return chain?.startWasm(device, networks);
+  // Few devices want it: others do not load this.
+  const { startWasm } = await loadPart('wasm-chain', import('./wasm/wasm-chain'));
+  return startWasm(device, networks);
 }

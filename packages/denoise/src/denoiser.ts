@@ -68,7 +68,8 @@ export class Denoiser {
    * Reads a network and compiles the kernels that do not depend on the image size.
    *
    * @param weights The whole content of a .tza file of Open Image Denoise. Nothing is downloaded.
-   * @throws {DenoiseError} `denoise/weights`, `denoise/option`, `denoise/pipeline`.
+   * @throws {DenoiseError} `denoise/weights`, `denoise/option`, `denoise/pipeline`. `GlanzError` `wgsl/chunk` where
+   * what computes the layers cannot be loaded.
    */
   static async create(
     device: GPUDevice,

@@ -18,9 +18,7 @@ it('reports a file that cannot be loaded by a code, with the part, what the brow
 const OTHERS = new Set([
   // Prefetched: what needs it asks again.
   'renderer/src/session/film-session.ts ../film/film-data',
-  // Without it, shaders or threads do the work; frames keep their noise; there is no prompt; the page's thread reads
-  // the model.
-  'denoise/src/configure.ts ./wasm/wasm-chain',
+  // Without it, threads do the work; frames keep their noise; there is no prompt; the page's thread reads the model.
   'denoise/src/layer-shapes.ts ./kernels/choose-matrices',
   'viewer/src/preview-reuse.ts ./frame-reuse',
   'element/src/element.ts ./prompt',
