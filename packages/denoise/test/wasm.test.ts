@@ -246,6 +246,71 @@ describe('work in WebAssembly', () => {
     denoiser.destroy();
   });
 
+  it('counts all submissions', async () => {
+    const { images } = bind(64, 48);
+    const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+    const submit = vi.spyOn(device.queue, 'submit');
+    for (const scale of [{}, { scale: 2 }]) {
+      submit.mockClear();
+      const { submissions } = await denoiser.denoise({ ...images, ...scale });
+      expect(submissions).toBe(submit.mock.calls.length);
+    }
+    denoiser.destroy();
+  });
+
+  it('reports no progress after an abort', async () => {
+    const { images } = bind(64, 48);
+    const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+    await denoiser.denoise(images);
+    fastClock();
+    const reason = new Error('the camera moved');
+    const controller = new AbortController();
+    let called = 0;
+    const onProgress = () => {
+      // Between two slices, as an event of the page does it.
+      if (++called === 5) queueMicrotask(() => controller.abort(reason));
+    };
+    await expect(denoiser.denoise(images, { signal: controller.signal, onProgress })).rejects.toBe(reason);
+    expect(called).toBe(5);
+    denoiser.destroy();
+  });
+
+  describe('whose rows the GPU encodes', () => {
+    /** The next denoiser, with buffers that are mapped by `map`. */
+    async function mapped(map: (denoiser: Denoiser, own: Promise<undefined>) => Promise<undefined>) {
+      const { images } = bind(64, 48);
+      const create = device.createBuffer.bind(device);
+      vi.spyOn(device, 'createBuffer').mockImplementation((descriptor) => {
+        const buffer = create(descriptor);
+        const own = buffer.mapAsync.bind(buffer);
+        return Object.assign(buffer, { mapAsync: (...range: [number]) => map(denoiser, own(...range)) });
+      });
+      const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
+      const error: unknown = await denoiser.denoise(images).catch((cause: unknown) => cause);
+      denoiser.destroy();
+      return error;
+    }
+
+    it('ends with a code where it is destroyed just when they are there', async () => {
+      const error = await mapped(async (denoiser, own) => {
+        await own;
+        denoiser.destroy();
+        return undefined;
+      });
+      expect(error).toMatchObject({ code: 'denoise/destroyed' });
+    });
+
+    it('ends with a code, and what the GPU says, where they cannot be read', async () => {
+      const cause = new DOMException('mapping failed', 'OperationError');
+      const error = await mapped(async (_, own) => {
+        await own;
+        throw cause;
+      });
+      expect(error).toBeInstanceOf(DenoiseError);
+      expect(error).toMatchObject({ code: 'denoise/device', cause });
+    });
+  });
+
   it('of two calls comes one after the other, and sizes may change', async () => {
     const [a, b] = [bind(64, 48), bind(48, 80)];
     const denoiser = await Denoiser.create(device, weights, { webAssembly: true });

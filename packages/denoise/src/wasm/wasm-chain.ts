@@ -164,7 +164,8 @@ export class WasmChain {
    * Denoises these images.
    *
    * @returns Submissions to the GPU.
-   * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/limit`, `denoise/option`, `denoise/device`.
+   * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/limit`, `denoise/option`, `denoise/device`,
+   * `denoise/destroyed`; the signal's reason where it aborts.
    */
   async run(images: DenoiseImages, run: WasmRun): Promise<number> {
     const bound = boundChain(this.#device, this.#stages, this.#guides, images);
@@ -175,17 +176,22 @@ export class WasmChain {
     let submissions = 0;
     let loss: { readonly cause: unknown } | undefined;
     run.lost.catch((cause: unknown) => (loss = { cause }));
-    const report = () => {
-      run.onProgress?.(Math.min(1, spent / total));
+    const check = () => {
       run.signal?.throwIfAborted();
       run.expectAlive();
       if (loss) throw loss.cause;
+    };
+    const report = () => {
+      check();
+      run.onProgress?.(Math.min(1, spent / total));
+      // The caller may have ended it just now.
+      check();
     };
     const pause = slices(report);
     for (const [i, network] of networks.entries()) {
       const [prelude, decoder] = this.#kernels[i]!;
       const work = { network, images: bound[i]!, prelude, decode: decoder };
-      this.#expose(work);
+      submissions += this.#expose(work);
       for (const tile of network.tiling.tiles) {
         await this.#encode(work, tile, run, (part) => {
           submissions++;
@@ -201,7 +207,6 @@ export class WasmChain {
       }
     }
     await Promise.race([this.#device.queue.onSubmittedWorkDone(), run.lost]);
-    run.expectAlive();
     spent = total;
     report();
     return submissions;
@@ -232,17 +237,22 @@ export class WasmChain {
     this.#device.queue.submit([encoder.finish()]);
   }
 
-  /** Finds the scale of an image, or writes the one that is given. */
-  #expose(work: Work): void {
+  /**
+   * Finds the scale of an image, or writes the one that is given.
+   *
+   * @returns Submissions to the GPU.
+   */
+  #expose(work: Work): number {
     const { images, prelude, network } = work;
     if (images.scale !== undefined) {
       this.#device.queue.writeBuffer(this.#buffers[SCALE]!, 0, Float32Array.of(images.scale));
-      return;
+      return 0;
     }
     const tile = this.#place(work, network.tiling.tiles[0]!, 0, 1);
     const windows = { blocks: this.#window(BLOCKS), tile, scale: this.#window(SCALE) };
     const cursor = new JobCursor(exposureJobs(this.#device, prelude, images, windows));
     this.#submit((pass) => cursor.encode(pass, Infinity));
+    return 1;
   }
 
   /** Encodes a tile on the GPU and copies it into the module's memory, rows by rows. */
@@ -280,8 +290,11 @@ export class WasmChain {
       await Promise.race([mapped, lost]).catch(async (cause: unknown) => {
         expectAlive();
         await Promise.race([lost, new Promise((resolve) => setTimeout(resolve, 100))]);
-        throw cause;
+        expectAlive();
+        throw new DenoiseError('denoise/device', `The GPU's results cannot be read: ${String(cause)}.`, { cause });
       });
+      // It may have been destroyed since the mapping was there.
+      expectAlive();
       this.#interleave(network, new Float32Array(staging.getMappedRange(0, bytes)), from, rows);
       staging.unmap();
       onRows(rows / tiling.height);
