@@ -39,7 +39,7 @@ export class Denoiser {
   readonly #lost: Promise<never>;
   /** What is denoised. */
   readonly input: DenoiserInput;
-  /** Precision between layers. */
+  /** Precision between layers where shaders compute them; in WebAssembly it is always single. */
   readonly storage: DenoiserStorage;
   /** Where WebAssembly computes the layers, they are made for encode(). */
   #shaders: Shaders | undefined;
@@ -106,7 +106,8 @@ export class Denoiser {
 
   /**
    * Makes what {@link denoise} needs for images of a size, so that the first one does not wait for it: memory, and
-   * shaders unless WebAssembly computes the layers. For {@link encode} pass `encode: true`, which makes those there too.
+   * shaders unless WebAssembly computes the layers. For {@link encode} pass `encode: true`, which makes those there
+   * too.
    *
    * @throws {DenoiseError} `denoise/size`, `denoise/memory`, `denoise/limit`, `denoise/pipeline`, `denoise/destroyed`.
    */
@@ -142,8 +143,8 @@ export class Denoiser {
    * Records all work into a command encoder of the application, which may have its own frame loop. Uniforms are written
    * on the queue, ahead of the encoder: submit it before the next call of any method.
    *
-   * @throws {DenoiseError} as {@link denoise} does; `denoise/size` too where {@link prepare} was not called for this size
-   * before, with `encode: true`.
+   * @throws {DenoiseError} as {@link denoise} does; `denoise/size` too where {@link prepare} was not called for this
+   * size before, with `encode: true`.
    */
   encode(encoder: GPUCommandEncoder, images: DenoiseImages): void {
     this.#expectAlive();

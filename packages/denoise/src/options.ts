@@ -19,9 +19,9 @@ export interface DenoiserOptions {
   /** What is denoised. Default `hdr`. */
   readonly input?: DenoiserInput;
   /**
-   * Weights of networks that remove the noise of guides before they guide (`rt_alb`, `rt_nrm`), for guides of few samples
-   * and for final images. The weights of the denoiser itself are then those for clean guides (`rt_hdr_calb_cnrm`). Guides
-   * that are not named are taken as they are. Default: none.
+   * Weights of networks that remove the noise of guides before they guide (`rt_alb`, `rt_nrm`), for guides of few
+   * samples and for final images. The weights of the denoiser itself are then those for clean guides
+   * (`rt_hdr_calb_cnrm`). Guides that are not named are taken as they are. Default: none.
    */
   readonly prefilter?: {
     readonly albedo?: Uint8Array | ArrayBuffer;
@@ -33,23 +33,26 @@ export interface DenoiserOptions {
    */
   readonly storage?: DenoiserStorage;
   /**
-   * Bytes of GPU memory for values between layers. Images that need more are computed in tiles, with the same result bit
-   * for bit; tiles of 512 pixels take 2.6 times the work. Default 1 GiB; at least what a tile of 256 × 256 pixels needs.
+   * Bytes of memory for values between layers, on the GPU or in WebAssembly. Images that need more are computed in
+   * tiles, with the same result bit for bit; tiles of 512 pixels take 2.6 times the work. Default 1 GiB; at least what
+   * a tile of 256 × 256 pixels needs.
    */
   readonly maxMemory?: number;
   /**
    * Whether layers are computed by subgroup matrices where the device has the features `shader-f16` and
    * `chromium-experimental-subgroup-matrix`, subgroups of one size, and matrices of halves with sums in single
-   * precision. An image changes by 0.06 % on average, and takes a third of the time (on an H200). No effect with storage
-   * `f32`, and on other devices. Default true.
+   * precision. An image changes by 0.06 % on average, and takes a third of the time (on an H200). No effect with
+   * storage `f32`, and on other devices. Default true.
    */
   readonly subgroupMatrices?: boolean;
   /**
    * Whether the CPU computes the layers, in WebAssembly, on the calling thread in slices of about 6 ms; the GPU still
-   * encodes and decodes. Values between layers are in single precision, whatever `storage` says. Default: on adapters
+   * encodes and decodes. Values between layers are in single precision, whatever `storage` says; last bits may differ
+   * between processors, which round a product and a sum once or twice (relaxed SIMD). Default: on adapters
    * that are software (SwiftShader, lavapipe, WARP); on SwiftShader it takes a tenth of the time or less. A page with a
    * content security policy allows it with `'wasm-unsafe-eval'` in `script-src`. Where it is forbidden, the browser has
-   * no SIMD, or no memory for the smallest tile, shaders compute as elsewhere, and {@link DenoiseResult.kernels} says so.
+   * no SIMD, or no memory for the smallest tile, shaders compute as elsewhere, and {@link DenoiseResult.kernels} says
+   * so.
    */
   readonly webAssembly?: boolean;
   /** Milliseconds that one submission should take at most, so that a page stays responsive. Default 8. */
@@ -58,8 +61,8 @@ export interface DenoiserOptions {
   readonly signal?: AbortSignal;
   /**
    * How the threads of a layer of `width` × `height` pixels share its work, see `tuneShapes` of `@glanz/denoise/tune`;
-   * `undefined`, or what does not fit into workgroup memory, for the usual choice. Results do not depend on it: each sum
-   * is computed in the same order. A layer with a shape is not computed by subgroup matrices.
+   * `undefined`, or what does not fit into workgroup memory, for the usual choice. Results do not depend on it: each
+   * sum is computed in the same order. A layer with a shape is not computed by subgroup matrices.
    */
   readonly shapeOf?: (layer: LayerSize, width: number, height: number) => KernelFamily | undefined;
 }
@@ -94,7 +97,7 @@ export interface DenoiseResult {
   readonly tiles: number;
   /** Submissions to the GPU. */
   readonly submissions: number;
-  /** What computed the layers: the GPU by shaders, or the CPU in WebAssembly, see {@link DenoiserOptions.webAssembly}. */
+  /** What computed the layers, see {@link DenoiserOptions.webAssembly}. */
   readonly kernels: DenoiseKernels;
 }
 
@@ -142,7 +145,10 @@ export interface DenoiseImages {
 
 /** Options for {@link Denoiser.denoise}. */
 export interface DenoiseOptions {
-  /** Ends the work between two submissions, or slices of a layer in WebAssembly; the promise rejects with the signal's reason, and the output is undefined. */
+  /**
+   * Ends the work between two submissions, or slices of a layer in WebAssembly; the promise rejects with the signal's
+   * reason, and the output is undefined.
+   */
   readonly signal?: AbortSignal;
   /** Called after each submission or slice with the part of the work that is done, 0 to 1. */
   readonly onProgress?: (done: number) => void;

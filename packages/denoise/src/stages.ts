@@ -17,7 +17,8 @@ export interface Stage {
 type CleanGuide = 'albedo' | 'normal';
 
 /**
- * The images of each stage, checked: those that clean guides write into `guides`, the last takes what they have written.
+ * The images of each stage, checked: those that clean guides write into `guides`, the last takes what they have
+ * written.
  *
  * @throws {DenoiseError} `denoise/size`, `denoise/input`, `denoise/limit`, `denoise/option`.
  */

@@ -42,7 +42,7 @@ export async function download(device: GPUDevice, buffer: GPUBuffer): Promise<Fl
 /** RGB out of RGBA. */
 export const rgbOf = (rgba: Float32Array): Float32Array => rgba.filter((_, i) => i % 4 < 3);
 
-/** Denoises images in memory on the GPU, by shaders unless options say otherwise: RGB, and the RGBA that was written. */
+/** Denoises images in memory on the GPU, by shaders unless options say otherwise: RGB, and the RGBA written. */
 export async function denoiseOnGpu(
   weights: Uint8Array,
   images: Images,

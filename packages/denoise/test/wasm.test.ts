@@ -220,7 +220,7 @@ describe('work in WebAssembly', () => {
   }
   afterEach(() => vi.restoreAllMocks());
 
-  it('returns to the event loop after slow steps, ends at an abort, and is right the next time', async () => {
+  it('returns to the event loop after slow steps, ends at aborts, and is right the next time', async () => {
     const { images, result } = bind(64, 48);
     const denoiser = await Denoiser.create(device, weights, { webAssembly: true });
     await denoiser.denoise(images);
@@ -228,7 +228,7 @@ describe('work in WebAssembly', () => {
     fastClock();
     const progress: number[] = [];
     await denoiser.denoise(images, { onProgress: (done) => progress.push(done) });
-    // Of the layers at the full size alone: one row, or one parity of it where a source is upsampled, of eight channels.
+    // Of the layers at the full size alone: a row, or one parity of it where a source is upsampled, of eight channels.
     expect(progress.length).toBeGreaterThan(6 * 48);
     expect(progress.at(-1)).toBe(1);
     expect(progress.every((done, i) => i === 0 || done >= progress[i - 1]!)).toBe(true);

@@ -125,9 +125,9 @@ async function evaluate(network: Network, first: Planes, { signal, onLayer }: Cp
 }
 
 /**
- * Denoises an image on the CPU, on the calling thread, in slices of about 12 ms: what {@link Denoiser} computes, for
- * machines without a GPU and for tests. By a network of base size 128 × 128 pixels take some 2 s, with `webAssembly`
- * 0.3 s.
+ * Denoises an image on the CPU, on the calling thread, in slices of about 12 ms, or 6 ms in WebAssembly: what
+ * {@link Denoiser} computes, for machines without a GPU and for tests. By a network of base size 128 × 128 pixels take
+ * some 2 s, with `webAssembly` 0.3 s.
  *
  * @param weights The whole content of a .tza file.
  * @returns As many floats a pixel as the input; those beyond the third are copied.

@@ -3,8 +3,8 @@ import { Slots } from '../plan';
 import { BLOCK, ROUND } from './kernels';
 
 /**
- * Values of a layer, or the encoded images, in the module's memory: `[row][pixel][channel]`, in single precision. Before
- * and after a row lies a pixel of zeros; rows are as long as tiles of pixels want them.
+ * Values of a layer, or the encoded images, in the module's memory: `[row][pixel][channel]`, in single precision.
+ * Before and after a row lies a pixel of zeros; rows are as long as tiles of pixels want them.
  */
 export interface WasmTensor {
   /** Channels in memory, a multiple of 4. */
