@@ -1,7 +1,7 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { DenoiseError, Denoiser, type DenoiseImages, type KernelFamily } from '../src/index';
-import { denoiseOnGpu, download, outputBuffer, upload } from './gpu';
+import { bindImages, denoiseOnGpu, different, download, outputBuffer, upload } from './gpu';
 import { randomImages, randomNetwork } from './random-network';
 
 let device: GPUDevice;
@@ -12,26 +12,8 @@ const weights = randomNetwork(9);
 /** On this software GPU WebAssembly would compute, which `wasm.test.ts` tests. */
 const SHADERS = { webAssembly: false };
 
-/** Images in buffers of the test device, and the memory to read the result from. */
-function bind(width: number, height: number) {
-  const { color, albedo, normal } = randomImages(width, height);
-  const output = outputBuffer(device, width * height);
-  const images = {
-    color: upload(device, color),
-    albedo: upload(device, albedo),
-    normal: upload(device, normal),
-    output,
-    width,
-    height,
-  };
-  return { images, result: () => download(device, output) };
-}
-
-/** How many floats of two images differ: a comparison by `toEqual` takes minutes to print what does. */
-function different(a: Float32Array, b: Float32Array): number {
-  expect(a.length).toBe(b.length);
-  return a.reduce((count, value, i) => count + (Object.is(value, b[i]) ? 0 : 1), 0);
-}
+/** Images in buffers of the test device, and a reader of the result. */
+const bind = (width: number, height: number) => bindImages(device, width, height);
 
 /** The code of the error that a promise rejects with. */
 const codeOf = (promise: Promise<unknown>): Promise<string> =>

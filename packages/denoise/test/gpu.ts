@@ -1,5 +1,7 @@
 import { testDevice } from '@glanz/gpu';
+import { expect } from 'vitest';
 import { Denoiser, type DenoiserInput, type DenoiserOptions } from '../src/index';
+import { randomImages } from './random-network';
 
 /** Images in memory: RGB without gaps. */
 export interface Images {
@@ -71,3 +73,35 @@ export async function denoiseOnGpu(
   for (const buffer of [output, ...Object.values(inputs)]) buffer.destroy();
   return { ...result, memoryBytes, rgba, rgb: rgbOf(rgba) };
 }
+
+/** Random images in buffers, one for the result, and what reads that. */
+export function bindImages(device: GPUDevice, width: number, height: number) {
+  const { color, albedo, normal } = randomImages(width, height);
+  const output = outputBuffer(device, width * height);
+  const images = {
+    color: upload(device, color),
+    albedo: upload(device, albedo),
+    normal: upload(device, normal),
+    output,
+    width,
+    height,
+  };
+  return { images, result: () => download(device, output) };
+}
+
+/** How many floats of two images differ: a comparison by `toEqual` takes minutes to print what does. */
+export function different(a: Float32Array, b: Float32Array): number {
+  expect(a.length).toBe(b.length);
+  return a.reduce((count, value, i) => count + (Object.is(value, b[i]) ? 0 : 1), 0);
+}
+
+/** What is compared with the CPU twin: input, channels, shape of the network, width and height. */
+export const TWIN_CASES: readonly (readonly [DenoiserInput, 3 | 6 | 9, 'plain' | 'large', number, number])[] = [
+  ['hdr', 9, 'plain', 45, 37],
+  ['hdr', 6, 'large', 16, 50],
+  ['hdr', 3, 'plain', 33, 16],
+  ['ldr', 9, 'large', 17, 15],
+  ['srgb', 6, 'plain', 31, 33],
+  ['albedo', 3, 'plain', 1, 1],
+  ['normal', 3, 'large', 5, 70],
+];

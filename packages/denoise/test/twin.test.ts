@@ -1,25 +1,14 @@
 import { expectNoGpuErrors } from '@glanz/gpu';
 import { afterEach, describe, expect, it } from 'vitest';
 import { denoiseOnCpu } from '../src/cpu/index';
-import type { DenoiserInput } from '../src/index';
-import { denoiseOnGpu } from './gpu';
+import { denoiseOnGpu, TWIN_CASES } from './gpu';
 import { differences } from './oracle';
 import { randomImages, randomNetwork } from './random-network';
 
 afterEach(() => expectNoGpuErrors());
 
-const CASES: readonly (readonly [DenoiserInput, 3 | 6 | 9, 'plain' | 'large', number, number])[] = [
-  ['hdr', 9, 'plain', 45, 37],
-  ['hdr', 6, 'large', 16, 50],
-  ['hdr', 3, 'plain', 33, 16],
-  ['ldr', 9, 'large', 17, 15],
-  ['srgb', 6, 'plain', 31, 33],
-  ['albedo', 3, 'plain', 1, 1],
-  ['normal', 3, 'large', 5, 70],
-];
-
 describe('the GPU computes what the CPU twin does', () => {
-  for (const [input, channels, graph, width, height] of CASES)
+  for (const [input, channels, graph, width, height] of TWIN_CASES)
     it(`${input}, ${channels} channels, ${graph}, ${width} × ${height}`, async () => {
       const weights = randomNetwork(channels, graph);
       const images = randomImages(width, height);

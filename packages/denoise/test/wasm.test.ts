@@ -7,7 +7,7 @@ import { readNetwork } from '../src/network';
 import { Evaluator, WasmNetwork } from '../src/wasm/evaluator';
 import { compileWasm, kernelBytes, type WasmKernels } from '../src/wasm/kernels';
 import { bytesOf, planWasm } from '../src/wasm/plan';
-import { denoiseOnGpu, download, outputBuffer, upload } from './gpu';
+import { bindImages, denoiseOnGpu, different, TWIN_CASES } from './gpu';
 import { CHECKED_CASES, MISSING, differences, imagesOf, tolerances, weightsOf } from './oracle';
 import { numbersFrom, randomImages, randomNetwork } from './random-network';
 
@@ -21,24 +21,8 @@ const compute = (
   options: DenoiserOptions & { readonly input: DenoiserInput },
 ) => denoiseOnGpu(weights, images, { webAssembly: true, ...options }, device);
 
-/** How many floats of two images differ. */
-const different = (a: Float32Array, b: Float32Array): number =>
-  a.reduce((count, value, i) => count + (Object.is(value, b[i]) ? 0 : 1), 0);
-
-/** Images in buffers of the test device. */
-function bind(width: number, height: number) {
-  const { color, albedo, normal } = randomImages(width, height);
-  const output = outputBuffer(device, width * height);
-  const images = {
-    color: upload(device, color),
-    albedo: upload(device, albedo),
-    normal: upload(device, normal),
-    output,
-    width,
-    height,
-  };
-  return { images, result: () => download(device, output) };
-}
+/** Images in buffers of the test device, and a reader of the result. */
+const bind = (width: number, height: number) => bindImages(device, width, height);
 
 const weights = randomNetwork(9);
 
@@ -56,18 +40,8 @@ describe('WebAssembly against the oracle', () => {
   test.skipIf(MISSING === undefined)(`cases with real weights: ${MISSING}`, () => undefined);
 });
 
-const CASES: readonly (readonly [DenoiserInput, 3 | 6 | 9, 'plain' | 'large', number, number])[] = [
-  ['hdr', 9, 'plain', 45, 37],
-  ['hdr', 6, 'large', 16, 50],
-  ['hdr', 3, 'plain', 33, 16],
-  ['ldr', 9, 'large', 17, 15],
-  ['srgb', 6, 'plain', 31, 33],
-  ['albedo', 3, 'plain', 1, 1],
-  ['normal', 3, 'large', 5, 70],
-];
-
 describe('WebAssembly computes what the CPU twin does', () => {
-  for (const [input, channels, graph, width, height] of CASES)
+  for (const [input, channels, graph, width, height] of TWIN_CASES)
     it(`${input}, ${channels} channels, ${graph}, ${width} × ${height}`, async () => {
       const weights = randomNetwork(channels, graph);
       const images = randomImages(width, height);

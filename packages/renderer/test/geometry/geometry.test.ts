@@ -1,7 +1,8 @@
 import { buildBlas } from '@glanz/bvh';
 import { createScene, type Mesh, type Scene } from '@glanz/scene';
 import { describe, expect, test } from 'vitest';
-import { chooseCompact, joinSlices, layOutGeometry, packGeometry, shapeSlices } from '../../src/geometry/geometry';
+import { chooseCompact } from '../../src/geometry/choose-compact';
+import { joinSlices, layOutGeometry, packGeometry, shapeSlices } from '../../src/geometry/geometry';
 import type { ShapeSlice } from '../../src/storage/shape-arrays';
 import { addSphere } from '../scenes';
 
