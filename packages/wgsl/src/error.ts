@@ -64,8 +64,8 @@ export class GlanzError extends Error {
  * Waits for a part of a package that is loaded by `import()` when it is first needed.
  *
  * @param name Of the part, as the message calls it.
- * @throws {GlanzError} `wgsl/chunk` where its file cannot be loaded. Reload the page: after a new deployment, the files
- * that an open page asks for are gone.
+ * @throws {GlanzError} `wgsl/chunk` where its file cannot be loaded. A page is reloaded then: after a new deployment,
+ * the files that an open page asks for are gone.
  */
 export async function loadPart<T>(name: string, part: Promise<T>): Promise<T> {
   try {
@@ -73,7 +73,7 @@ export async function loadPart<T>(name: string, part: Promise<T>): Promise<T> {
   } catch (cause) {
     throw new GlanzError(
       'wgsl/chunk',
-      `"${name}" cannot be loaded: ${String(cause)}. Reload the page: there may be a new version.`,
+      `"${name}" cannot be loaded: ${String(cause)}. In a page, reload it: there may be a new version.`,
       { cause },
     );
   }

@@ -11,7 +11,7 @@ it('reports a file that cannot be loaded by a code, with the part, what the brow
   const error: unknown = await loadPart('stage', Promise.reject(cause)).catch((reason: unknown) => reason);
   expect(error).toBeInstanceOf(GlanzError);
   expect(error).toMatchObject({ code: 'wgsl/chunk', cause });
-  expect((error as Error).message).toMatch(/"stage".*stage-1a2b\.js.*Reload the page/);
+  expect((error as Error).message).toMatch(/"stage".*stage-1a2b\.js.*In a page, reload it/);
 });
 
 /** Imports whose failure has no consequence, or another one: file and module. */
