@@ -64,8 +64,8 @@ describe('half precision of the device against the oracle', async () => {
     const images = randomImages(50, 34);
     const options = { input: 'hdr', storage: 'f32' } as const;
     const [a, b] = [
-      await denoiseOnGpu(randomNetwork(9), images, options, device),
-      await denoiseOnGpu(randomNetwork(9), images, options),
+      await denoiseOnGpu(randomNetwork(9, 'even'), images, options, device),
+      await denoiseOnGpu(randomNetwork(9, 'even'), images, options),
     ];
     expect(a.rgba).toEqual(b.rgba);
   });

@@ -24,7 +24,7 @@ const compute = (
 /** Images in buffers of the test device, and a reader of the result. */
 const bind = (width: number, height: number) => bindImages(device, width, height);
 
-const weights = randomNetwork(9);
+const weights = randomNetwork(9, 'even');
 
 describe('WebAssembly against the oracle', () => {
   for (const oracle of CHECKED_CASES)
@@ -80,7 +80,7 @@ describe('memory for WebAssembly', () => {
   it('that is little leads to tiles, with the same bits', async () => {
     const whole = await compute(weights, wide, { input: 'hdr' });
     expect(whole.tiles).toBe(1);
-    const tiled = await compute(weights, wide, { input: 'hdr', maxMemory: 3_000_000 });
+    const tiled = await compute(weights, wide, { input: 'hdr', maxMemory: 2_400_000 });
     expect(tiled.tiles).toBeGreaterThan(1);
     expect(different(tiled.rgba, whole.rgba)).toBe(0);
   });
@@ -104,9 +104,9 @@ describe('memory for WebAssembly', () => {
 
     it('leads to smaller tiles, with the same bits', async () => {
       const whole = await compute(weights, long, { input: 'hdr' });
-      refuseAbove(100);
+      refuseAbove(60);
       const tiled = await compute(weights, long, { input: 'hdr' });
-      expect(asked.filter((pages) => pages > 100).length).toBeGreaterThan(0);
+      expect(asked.filter((pages) => pages > 60).length).toBeGreaterThan(0);
       expect(tiled).toMatchObject({ kernels: 'webAssembly' });
       expect(tiled.tiles).toBeGreaterThan(1);
       expect(different(tiled.rgba, whole.rgba)).toBe(0);
