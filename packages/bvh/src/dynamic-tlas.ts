@@ -91,7 +91,7 @@ export class DynamicTlas implements Tlas {
       throw new BvhError('bvh/too-many', `${length} instances: one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
     const capacity = Math.max(length - 1, 1);
     this.instanceOrder = new Uint32Array(length).map((_, i) => i);
-    this.toObject = new Float64Array(12 * length).fill(NaN);
+    this.toObject = new Float64Array(12 * length);
     this.#memory = this.#nodes = new Float32Array(capacity * NODE_WORDS);
     this.#words = new Uint32Array(this.#memory.buffer);
     this.#slots = new Int32Array(length).fill(-1);
@@ -103,7 +103,7 @@ export class DynamicTlas implements Tlas {
       const instance = instances.at(i);
       if (!instance) continue;
       checkTransform(instance, i);
-      if (placeInstance(instance, boxes, 6 * i, this.toObject, 12 * i)) present[i] = 1;
+      present[i] = placeInstance(instance, boxes, 6 * i, this.toObject, 12 * i) ? 1 : 0;
     }
     this.#build(boxes, present);
   }

@@ -40,7 +40,7 @@ export const leafReference = (first: number, count: number): number =>
   (LEAF | ((count - 1) << LEAF_FIRST_BITS) | first) >>> 0;
 
 /** First primitive of the leaf behind a reference. */
-export const leafFirst = (reference: number): number => reference & (2 ** LEAF_FIRST_BITS - 1);
+export const leafFirst = (reference: number): number => reference & ((1 << LEAF_FIRST_BITS) - 1);
 
 /** How many primitives the leaf behind a reference has, 1 to 16. */
 export const leafCount = (reference: number): number => ((reference >>> LEAF_FIRST_BITS) & (LEAF_MAX - 1)) + 1;

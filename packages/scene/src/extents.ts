@@ -1,4 +1,4 @@
-import type { Scene } from './scene';
+import type { Instance, Scene } from './scene';
 import type { Mesh } from './mesh';
 import { STEP, type Steps } from './slices';
 import { RUN, usedVertices, type UsedVertices } from './used-vertices';
@@ -75,7 +75,9 @@ function* boxSteps({ instances, meshes }: Scene, cache: ExtentCache): Steps<Floa
   const boxes = new Float64Array(6 * Math.ceil(instances.length / GROUP)).map((_, i) =>
     i % 6 < 3 ? Infinity : -Infinity,
   );
-  for (const [i, { mesh: index, transform: m, visible }] of instances.entries()) {
+  // By index: iterators of entries make an array for each of perhaps a million.
+  for (let i = 0; i < instances.length; i++) {
+    const { mesh: index, transform: m, visible } = instances[i] as Instance;
     if (i % 4096 === 4095) yield;
     const mesh = meshes[index];
     if (visible === false || !mesh) continue;

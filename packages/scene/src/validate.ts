@@ -4,7 +4,7 @@ import { SceneError } from './error';
 import type { Light, LightProfile } from './light';
 import type { Material } from './material';
 import type { Mesh } from './mesh';
-import type { Scene, SceneWarning } from './scene';
+import type { Instance, Scene, SceneWarning } from './scene';
 import { finish, STEP } from './slices';
 import { compressedBytes, type CompressedImage, type Image } from './texture';
 
@@ -12,12 +12,17 @@ const fail = (code: 'reference' | 'length' | 'not-finite' | 'value', message: st
   throw new SceneError(`scene/${code}`, message);
 };
 
-function reference(index: number, list: readonly unknown[], what: string, kind: string): void {
+/** What a message is about; a function where there may be a million of them. */
+type What = string | (() => string);
+
+const textOf = (what: What): string => (typeof what === 'string' ? what : what());
+
+function reference(index: number, list: readonly unknown[], what: What, kind: string): void {
   if (!(Number.isInteger(index) && index >= 0 && index < list.length))
-    fail('reference', `${what} refers to ${kind} ${index}; the scene has ${list.length}.`);
+    fail('reference', `${textOf(what)} refers to ${kind} ${index}; the scene has ${list.length}.`);
 }
 
-function finite(values: ArrayLike<number>, what: string, from = 0, end = values.length): void {
+function finite(values: ArrayLike<number>, what: What, from = 0, end = values.length): void {
   if (values instanceof Float32Array) {
     // x − x is 0 only for finite x, so one sum checks all of them.
     let sum = 0;
@@ -29,7 +34,7 @@ function finite(values: ArrayLike<number>, what: string, from = 0, end = values.
   }
   for (let i = from; i < end; i++) {
     if (!Number.isFinite(values[i]))
-      fail('not-finite', `${what} holds ${values[i]} at ${i}; every number must be finite.`);
+      fail('not-finite', `${textOf(what)} holds ${values[i]} at ${i}; every number must be finite.`);
   }
 }
 
@@ -40,8 +45,9 @@ function* finiteSteps(values: ArrayLike<number>, what: string): Generator<void> 
   }
 }
 
-function length(values: ArrayLike<number>, expected: number, what: string): void {
-  if (values.length !== expected) fail('length', `${what} has ${values.length} numbers; it must have ${expected}.`);
+function length(values: ArrayLike<number>, expected: number, what: What): void {
+  if (values.length !== expected)
+    fail('length', `${textOf(what)} has ${values.length} numbers; it must have ${expected}.`);
 }
 
 /** Whether three vertices (offsets into the positions) are exactly collinear. */
@@ -132,9 +138,10 @@ function checkMaterial(scene: Scene, material: Material, index: number): void {
   }
 }
 
-function checkTransform(transform: ArrayLike<number>, what: string): void {
-  length(transform, 16, `${what}: transform`);
-  finite(transform, `${what}: transform`);
+function checkTransform(transform: ArrayLike<number>, what: What): void {
+  const own = () => `${textOf(what)}: transform`;
+  length(transform, 16, own);
+  finite(transform, own);
 }
 
 /** Of the linear part. */
@@ -363,9 +370,10 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
   scene.textures.forEach((texture, index) => reference(texture.image, scene.images, `Texture ${index}`, 'image'));
   scene.materials.forEach((material, index) => checkMaterial(scene, material, index));
   const seen = new Set<object>();
-  for (const [index, instance] of scene.instances.entries()) {
+  for (let index = 0; index < scene.instances.length; index++) {
     if (index % 4096 === 4095) yield;
-    const what = `Instance ${index} ("${instance.name}")`;
+    const instance = scene.instances[index] as Instance;
+    const what = () => `Instance ${index} ("${instance.name}")`;
     reference(instance.mesh, scene.meshes, what, 'mesh');
     reference(instance.material, scene.materials, what, 'material');
     // Instances of one mesh share the list.
@@ -381,17 +389,18 @@ export function* validationSteps(scene: Scene): Generator<void, SceneWarning[]> 
     if (determinant(instance.transform) === 0)
       warnings.push({
         code: 'scene/flattened',
-        message: `${what} is flattened by its transform; it does not appear.`,
+        message: `${what()} is flattened by its transform; it does not appear.`,
         path: `/instances/${index}`,
       });
-    const { textures = {} } = scene.materials[instance.material] as Material;
+    const { textures } = scene.materials[instance.material] as Material;
+    if (!textures) continue;
     const sets = (scene.meshes[instance.mesh] as Mesh).uvs?.length ?? 0;
     for (const [name, binding] of Object.entries(textures)) {
       const set = binding?.uv ?? 0;
       if (binding && set >= sets)
         warnings.push({
           code: 'scene/missing-uv',
-          message: `${what} has no UV set ${set}, which the texture of ${name} uses; the texture is read at (0, 0).`,
+          message: `${what()} has no UV set ${set}, which the texture of ${name} uses; the texture is read at (0, 0).`,
           path: `/instances/${index}`,
         });
     }

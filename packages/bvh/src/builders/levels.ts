@@ -26,7 +26,7 @@ export class Levels {
   readonly #writer: NodeWriter;
   readonly #items: Items;
   readonly #order: Uint32Array;
-  /** The items in whole steps. */
+  /** The items in whole steps, in their order. */
   readonly #words: Int32Array;
   readonly #maxDepth: number;
   readonly #splitter: Splitter;
@@ -72,27 +72,24 @@ export class Levels {
       order = this.#order,
       centers = this.#centers;
     for (let left = items; tasks.length > 0 && left > 0;) {
-      centers.set(tasks.splice(-10, 6));
-      const [first, end, slot, depth] = tasks.splice(-4) as [number, number, number, number];
+      const depth = tasks.pop() as number,
+        slot = tasks.pop() as number,
+        end = tasks.pop() as number,
+        first = tasks.pop() as number;
+      let isCoarse = true;
+      for (let k = 6; k-- > 0;) centers[k] = tasks.pop() as number;
+      for (let k = 0; k < 3; k++) isCoarse &&= (centers[3 + k] as number) - (centers[k] as number) < COARSE;
       const size = end - first;
       left -= size;
       if (size <= GROUP_MAX && this.#join(first, size, slot, depth)) continue;
-      if (centers.subarray(3).every((high, k) => high - (centers[k] as number) < COARSE)) this.#quantise(first, end);
+      if (isCoarse) this.#quantise(first, end);
       splitter.split(this.#words, order, first, end, centers, 2 ** (this.#maxDepth - depth - 1));
       const { cut, sides } = splitter;
       const base = this.#writer.under(slot) * NODE_WORDS;
-      tasks.push(
-        ...sides.subarray(6),
-        cut,
-        end,
-        base + RIGHT,
-        depth + 1,
-        ...sides.subarray(0, 6),
-        first,
-        cut,
-        base + LEFT,
-        depth + 1,
-      );
+      for (let k = 6; k < 12; k++) tasks.push(sides[k] as number);
+      tasks.push(cut, end, base + RIGHT, depth + 1);
+      for (let k = 0; k < 6; k++) tasks.push(sides[k] as number);
+      tasks.push(first, cut, base + LEFT, depth + 1);
     }
     return tasks.length > 0;
   }
@@ -126,11 +123,11 @@ export class Levels {
         const box = 6 * item + k;
         const a = (((boxes[box] as number) - (low[k] as number)) * scale) | 0,
           b = (((boxes[box + 3] as number) - (low[k] as number)) * scale) | 0;
-        words[4 * item + k] = b | ((STEPS - a) << 16);
+        words[4 * i + k] = b | ((STEPS - a) << 16);
         centers[k] = Math.min(centers[k] as number, a + b);
         centers[3 + k] = Math.max(centers[3 + k] as number, a + b);
       }
-      words[4 * item + 3] = weights[item] as number;
+      words[4 * i + 3] = weights[item] as number;
     }
   }
 

@@ -34,8 +34,8 @@ function addTo(bins: Int32Array, at: number, a: number, b: number, c: number, we
 
 /**
  * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs: boxes are three words,
- * which are joined without a branch. After `split()`, `cut` is where the range was cut (the order is permuted): in
- * the middle if no plane separates the centres.
+ * which are joined without a branch. After `split()`, `cut` is where the range was cut: in the middle if no plane
+ * separates the centres. Items and their order are permuted alike, so that ranges are read from one end to the other.
  */
 export class Splitter {
   cut = 0;
@@ -56,7 +56,8 @@ export class Splitter {
   /**
    * Tries the planes between bins along all three axes (Wald 2007).
    *
-   * @param centers Bounds of the centres of `order[first, end)`, doubled: min xyz, max xyz.
+   * @param items Four words each, in the order of `order`.
+   * @param centers Bounds of the centres of those from `first` up to `end`, doubled: min xyz, max xyz.
    * @param maxSide Maximum number of items on a side, at least half of them. Where the best plane leaves more on one,
    * the cut moves along the same axis until it has no more.
    */
@@ -69,7 +70,7 @@ export class Splitter {
       scales[axis] = (bins * 2 ** 24) / ((centers[3 + axis] as number) - (centers[axis] as number) + 1);
     sides.set(centers);
     sides.set(centers, 6);
-    this.#fill(items, order, first, end, centers);
+    this.#fill(items, first, end, centers);
     let best = Infinity,
       bestAxis = -1,
       bestBin = 0;
@@ -123,15 +124,20 @@ export class Splitter {
     let leftMax = 0,
       rightMin = 2 * STEPS;
     while (i < j) {
-      const item = order[i] as number;
-      const word = items[item * ITEM_WORDS + axis] as number;
+      const word = items[i * ITEM_WORDS + axis] as number;
       const center = (word & STEPS) + STEPS - (word >>> 16);
       if (Math.imul(center - low, scale) >>> 24 < plane) {
         i++;
         if (center > leftMax) leftMax = center;
       } else {
+        const item = order[i] as number;
         order[i] = order[--j] as number;
         order[j] = item;
+        for (let a = i * ITEM_WORDS, b = j * ITEM_WORDS; b < (j + 1) * ITEM_WORDS; a++, b++) {
+          const moved = items[a] as number;
+          items[a] = items[b] as number;
+          items[b] = moved;
+        }
         if (center < rightMin) rightMin = center;
       }
     }
@@ -140,7 +146,7 @@ export class Splitter {
     sides[6 + axis] = rightMin;
   }
 
-  #fill(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array): void {
+  #fill(items: Int32Array, first: number, end: number, centers: Int32Array): void {
     const STEPS = 32767,
       ITEM_WORDS = 4;
     const binned = this.#binned,
@@ -153,8 +159,7 @@ export class Splitter {
     const scaleX = scales[0] as number,
       scaleY = scales[1] as number,
       scaleZ = scales[2] as number;
-    for (let i = first; i < end; i++) {
-      const w = (order[i] as number) * ITEM_WORDS;
+    for (let w = first * ITEM_WORDS; w < end * ITEM_WORDS; w += ITEM_WORDS) {
       const a = items[w] as number,
         b = items[w + 1] as number,
         c = items[w + 2] as number,
