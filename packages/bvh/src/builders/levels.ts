@@ -10,8 +10,8 @@ const COARSE = 512;
 export interface Items {
   /** Six numbers each: min xyz, max xyz; finite. */
   readonly boxes: Float32Array;
-  /** Cost of testing each. */
-  readonly weights: Uint32Array;
+  /** Cost of testing each; default 1. */
+  readonly weights?: Uint32Array;
   /** Number of items, at least two. */
   readonly count: number;
 }
@@ -25,8 +25,7 @@ export interface Items {
 export class Levels {
   readonly #writer: NodeWriter;
   readonly #items: Items;
-  readonly #order: Uint32Array;
-  /** The items in whole steps, in their order. */
+  /** Four words for each item, in their order, as {@link Splitter.split} takes them. */
   readonly #words: Int32Array;
   readonly #maxDepth: number;
   readonly #splitter: Splitter;
@@ -39,7 +38,6 @@ export class Levels {
   /**
    * @param maxDepth Maximum number of inner nodes on the path to an item; 2 ** maxDepth must not be less than the
    * number of items.
-   * @param order The items' numbers, rising.
    * @param words Four numbers for each item, to work in.
    */
   constructor(
@@ -47,15 +45,14 @@ export class Levels {
     items: Items,
     maxDepth: number,
     bins: number,
-    order = new Uint32Array(items.count).map((_, i) => i),
     words = new Int32Array(4 * items.count),
   ) {
     this.#writer = writer;
     this.#items = items;
-    this.#order = order;
     this.#words = words;
     this.#maxDepth = maxDepth;
     this.#splitter = new Splitter(bins);
+    for (let i = 0; i < items.count; i++) words[4 * i + 3] = i;
     this.#quantise(0, items.count);
     this.tasks = [...this.#centers, 0, items.count, 0, 0];
   }
@@ -69,27 +66,24 @@ export class Levels {
   step(items: number): boolean {
     const tasks = this.tasks,
       splitter = this.#splitter,
-      order = this.#order,
       centers = this.#centers;
     for (let left = items; tasks.length > 0 && left > 0;) {
       const depth = tasks.pop() as number,
         slot = tasks.pop() as number,
         end = tasks.pop() as number,
         first = tasks.pop() as number;
-      let isCoarse = true;
       for (let k = 6; k-- > 0;) centers[k] = tasks.pop() as number;
-      for (let k = 0; k < 3; k++) isCoarse &&= (centers[3 + k] as number) - (centers[k] as number) < COARSE;
       const size = end - first;
       left -= size;
       if (size <= GROUP_MAX && this.#join(first, size, slot, depth)) continue;
-      if (isCoarse) this.#quantise(first, end);
-      splitter.split(this.#words, order, first, end, centers, 2 ** (this.#maxDepth - depth - 1));
-      const { cut, sides } = splitter;
+      // No side has a bit of COARSE, a power of two, or a higher one.
+      let sizes = 0;
+      for (let k = 0; k < 3; k++) sizes |= (centers[3 + k] as number) - (centers[k] as number);
+      if (sizes < COARSE) this.#quantise(first, end);
+      splitter.split(this.#words, this.#items.weights, first, end, centers, 2 ** (this.#maxDepth - depth - 1));
+      const { cut, left: low, right: high } = splitter;
       const base = this.#writer.under(slot) * NODE_WORDS;
-      for (let k = 6; k < 12; k++) tasks.push(sides[k] as number);
-      tasks.push(cut, end, base + RIGHT, depth + 1);
-      for (let k = 0; k < 6; k++) tasks.push(sides[k] as number);
-      tasks.push(first, cut, base + LEFT, depth + 1);
+      tasks.push(...high, cut, end, base + RIGHT, depth + 1, ...low, first, cut, base + LEFT, depth + 1);
     }
     return tasks.length > 0;
   }
@@ -97,17 +91,16 @@ export class Levels {
   /** Quantises a range in its own steps, and records the bounds of its centres. */
   #quantise(first: number, end: number): void {
     const STEPS = 32767;
-    const { boxes, weights } = this.#items;
-    const order = this.#order,
-      words = this.#words,
+    const { boxes } = this.#items;
+    const words = this.#words,
       centers = this.#centers;
-    const low = new Float64Array(3);
+    const low: number[] = [];
     let extent = 0;
     for (let k = 0; k < 3; k++) {
       let a = Infinity,
         b = -Infinity;
       for (let i = first; i < end; i++) {
-        const box = 6 * (order[i] as number) + k;
+        const box = 6 * (words[4 * i + 3] as number) + k;
         a = Math.min(a, boxes[box] as number);
         b = Math.max(b, boxes[box + 3] as number);
       }
@@ -118,7 +111,7 @@ export class Levels {
     }
     const scale = extent > 0 ? STEPS / extent : 0;
     for (let i = first; i < end; i++) {
-      const item = order[i] as number;
+      const item = words[4 * i + 3] as number;
       for (let k = 0; k < 3; k++) {
         const box = 6 * item + k;
         const a = (((boxes[box] as number) - (low[k] as number)) * scale) | 0,
@@ -127,24 +120,24 @@ export class Levels {
         centers[k] = Math.min(centers[k] as number, a + b);
         centers[3 + k] = Math.max(centers[3 + k] as number, a + b);
       }
-      words[4 * i + 3] = weights[item] as number;
     }
   }
 
   /** Writes the tree of a small range, unless it is too high. @returns Whether it was written. */
   #join(first: number, size: number, slot: number, depth: number): boolean {
     const group = this.#group,
-      order = this.#order;
+      words = this.#words,
+      writer = this.#writer;
     const { boxes } = this.#items;
-    const writer = this.#writer;
+    const itemAt = (i: number) => words[4 * (first + i) + 3] as number;
     if (size === 1) {
-      const item = order[first] as number;
+      const item = itemAt(0);
       writer.put(slot, leafReference(item, 1), boxes, 6 * item);
       return true;
     }
-    for (let i = 0; i < size; i++) group.load(i, boxes, 6 * (order[first + i] as number));
+    for (let i = 0; i < size; i++) group.load(i, boxes, 6 * itemAt(i));
     if (group.run(size) > this.#maxDepth - depth) return false;
-    writer.count = group.write(writer, size, slot, (id) => leafReference(order[first + id] as number, 1));
+    writer.count = group.write(writer, size, slot, (id) => leafReference(itemAt(id), 1));
     return true;
   }
 }

@@ -17,7 +17,7 @@ export function buildOverBoxes(
 ): NodeWriter {
   if (count < 2) writer.single(leafReference(0, 1), count === 1 ? boxes : undefined);
   else {
-    new Levels(writer, { boxes, weights: new Uint32Array(count).fill(1), count }, maxDepth, 16).step(Infinity);
+    new Levels(writer, { boxes, count }, maxDepth, 16).step(Infinity);
     encloseNodes(writer, 0, writer.count);
   }
   return writer;

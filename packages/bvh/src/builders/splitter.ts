@@ -1,7 +1,7 @@
 /**
  * Coordinates are quantised to 32767 steps along the longest side: fifteen bits and a guard bit, two in a word. The
  * words of an item: for each of x, y and z the upper coordinate, and in the high half the lower one complemented; then
- * its weight.
+ * its number.
  */
 const ITEM_WORDS = 4;
 
@@ -35,12 +35,13 @@ function addTo(bins: Int32Array, at: number, a: number, b: number, c: number, we
 /**
  * Finds splits of ranges of boxes by surface area heuristic, with all scratch memory it needs: boxes are three words,
  * which are joined without a branch. After `split()`, `cut` is where the range was cut: in the middle if no plane
- * separates the centres. Items and their order are permuted alike, so that ranges are read from one end to the other.
+ * separates the centres. Items themselves are permuted, so that ranges are read from one end to the other.
  */
 export class Splitter {
   cut = 0;
-  /** Where the centres of both sides lie, doubled: min xyz, max xyz of the left, then of the right. */
-  readonly sides = new Int32Array(12);
+  /** Where the centres of both sides lie, doubled: min xyz, max xyz. */
+  readonly left = new Int32Array(6);
+  readonly right = new Int32Array(6);
   readonly #bins: number;
   /** For each axis its bins: three words and a weight each. */
   readonly #binned: Int32Array;
@@ -56,21 +57,29 @@ export class Splitter {
   /**
    * Tries the planes between bins along all three axes (Wald 2007).
    *
-   * @param items Four words each, in the order of `order`.
+   * @param items Those from `first` up to `end` are permuted.
+   * @param weights By number; default 1.
    * @param centers Bounds of the centres of those from `first` up to `end`, doubled: min xyz, max xyz.
    * @param maxSide Maximum number of items on a side, at least half of them. Where the best plane leaves more on one,
    * the cut moves along the same axis until it has no more.
    */
-  split(items: Int32Array, order: Uint32Array, first: number, end: number, centers: Int32Array, maxSide: number): void {
-    const { sides } = this;
+  split(
+    items: Int32Array,
+    weights: Uint32Array | undefined,
+    first: number,
+    end: number,
+    centers: Int32Array,
+    maxSide: number,
+  ): void {
+    const { left, right } = this;
     const scales = this.#scales,
       bins = this.#bins;
     this.cut = (first + end) >>> 1;
     for (let axis = 0; axis < 3; axis++)
       scales[axis] = (bins * 2 ** 24) / ((centers[3 + axis] as number) - (centers[axis] as number) + 1);
-    sides.set(centers);
-    sides.set(centers, 6);
-    this.#fill(items, first, end, centers);
+    left.set(centers);
+    right.set(centers);
+    this.#fill(items, weights, first, end, centers);
     let best = Infinity,
       bestAxis = -1,
       bestBin = 0;
@@ -87,17 +96,17 @@ export class Splitter {
     let low = centers[bestAxis] as number,
       high = centers[3 + bestAxis] as number;
     for (;;) {
-      this.#partition(items, order, first, end, bestAxis, bestBin, low);
+      this.#partition(items, first, end, bestAxis, bestBin, low);
       // Where a side is too large, halve the range of its centres until the cut is far enough in it.
       if (this.cut < minCut) {
         first = this.cut;
-        low = sides[6 + bestAxis] as number;
+        low = right[bestAxis] as number;
       } else if (this.cut > maxCut) {
         end = this.cut;
-        high = sides[3 + bestAxis] as number;
+        high = left[3 + bestAxis] as number;
       } else return;
       if (low === high) {
-        sides[3 + bestAxis] = sides[6 + bestAxis] = low;
+        left[3 + bestAxis] = right[bestAxis] = low;
         this.cut = minCut;
         return;
       }
@@ -106,19 +115,10 @@ export class Splitter {
     }
   }
 
-  #partition(
-    items: Int32Array,
-    order: Uint32Array,
-    first: number,
-    end: number,
-    axis: number,
-    plane: number,
-    low: number,
-  ): void {
+  #partition(items: Int32Array, first: number, end: number, axis: number, plane: number, low: number): void {
     const STEPS = 32767,
       ITEM_WORDS = 4;
     const scale = this.#scales[axis] as number;
-    const { sides } = this;
     let i = first,
       j = end;
     let leftMax = 0,
@@ -130,23 +130,21 @@ export class Splitter {
         i++;
         if (center > leftMax) leftMax = center;
       } else {
-        const item = order[i] as number;
-        order[i] = order[--j] as number;
-        order[j] = item;
-        for (let a = i * ITEM_WORDS, b = j * ITEM_WORDS; b < (j + 1) * ITEM_WORDS; a++, b++) {
-          const moved = items[a] as number;
-          items[a] = items[b] as number;
-          items[b] = moved;
+        j--;
+        for (let k = 0; k < ITEM_WORDS; k++) {
+          const a = i * ITEM_WORDS + k,
+            b = j * ITEM_WORDS + k;
+          [items[a], items[b]] = [items[b] as number, items[a] as number];
         }
         if (center < rightMin) rightMin = center;
       }
     }
     this.cut = i;
-    sides[3 + axis] = leftMax;
-    sides[6 + axis] = rightMin;
+    this.left[3 + axis] = leftMax;
+    this.right[axis] = rightMin;
   }
 
-  #fill(items: Int32Array, first: number, end: number, centers: Int32Array): void {
+  #fill(items: Int32Array, weights: Uint32Array | undefined, first: number, end: number, centers: Int32Array): void {
     const STEPS = 32767,
       ITEM_WORDS = 4;
     const binned = this.#binned,
@@ -163,7 +161,7 @@ export class Splitter {
       const a = items[w] as number,
         b = items[w + 1] as number,
         c = items[w + 2] as number,
-        weight = items[w + 3] as number;
+        weight = weights ? (weights[items[w + 3] as number] as number) : 1;
       const x = (Math.imul((a & STEPS) - (a >>> 16) - lowX, scaleX) >>> 24) * ITEM_WORDS;
       const y = (Math.imul((b & STEPS) - (b >>> 16) - lowY, scaleY) >>> 24) * ITEM_WORDS + axisWords;
       const z = (Math.imul((c & STEPS) - (c >>> 16) - lowZ, scaleZ) >>> 24) * ITEM_WORDS + 2 * axisWords;

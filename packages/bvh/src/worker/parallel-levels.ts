@@ -27,15 +27,13 @@ export function shareLevels<T>(
   meanwhile: () => T,
 ): T | undefined {
   const { count } = clusters;
-  const order = team.uint32(count),
-    words = team.int32(4 * count),
+  const words = team.int32(4 * count),
     shares = team.int32((TASK + 1) * SHARES + 1);
-  const levelsOver = (items: Items) => new Levels(upper, items, maxDepth, bins, order, words);
+  const levelsOver = (items: Items) => new Levels(upper, items, maxDepth, bins, words);
   let levels: Levels;
   let result: T | undefined;
   let tops: number[] = [];
   if (team.index === 1) {
-    for (let i = 0; i < count; i++) order[i] = i;
     levels = levelsOver(clusters);
     tops = cutShares(levels, upper, shares);
     team.publish();
