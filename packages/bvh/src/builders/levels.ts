@@ -72,18 +72,29 @@ export class Levels {
         slot = tasks.pop() as number,
         end = tasks.pop() as number,
         first = tasks.pop() as number;
-      for (let k = 6; k-- > 0;) centers[k] = tasks.pop() as number;
+      centers.set(tasks.splice(-6));
       const size = end - first;
       left -= size;
       if (size <= GROUP_MAX && this.#join(first, size, slot, depth)) continue;
       // No side has a bit of COARSE, a power of two, or a higher one.
-      let sizes = 0;
-      for (let k = 0; k < 3; k++) sizes |= (centers[3 + k] as number) - (centers[k] as number);
-      if (sizes < COARSE) this.#quantise(first, end);
+      let sides = 0;
+      for (let k = 0; k < 3; k++) sides |= (centers[3 + k] as number) - (centers[k] as number);
+      if (sides < COARSE) this.#quantise(first, end);
       splitter.split(this.#words, this.#items.weights, first, end, centers, 2 ** (this.#maxDepth - depth - 1));
-      const { cut, left: low, right: high } = splitter;
+      const { cut } = splitter;
       const base = this.#writer.under(slot) * NODE_WORDS;
-      tasks.push(...high, cut, end, base + RIGHT, depth + 1, ...low, first, cut, base + LEFT, depth + 1);
+      tasks.push(
+        ...splitter.right,
+        cut,
+        end,
+        base + RIGHT,
+        depth + 1,
+        ...splitter.left,
+        first,
+        cut,
+        base + LEFT,
+        depth + 1,
+      );
     }
     return tasks.length > 0;
   }

@@ -71,8 +71,8 @@ export class Splitter {
     centers: Int32Array,
     maxSide: number,
   ): void {
-    const { left, right } = this;
-    const scales = this.#scales,
+    const { left, right } = this,
+      scales = this.#scales,
       bins = this.#bins;
     this.cut = (first + end) >>> 1;
     for (let axis = 0; axis < 3; axis++)
@@ -161,7 +161,7 @@ export class Splitter {
       const a = items[w] as number,
         b = items[w + 1] as number,
         c = items[w + 2] as number,
-        weight = weights ? (weights[items[w + 3] as number] as number) : 1;
+        weight = weights?.[items[w + 3] as number] ?? 1;
       const x = (Math.imul((a & STEPS) - (a >>> 16) - lowX, scaleX) >>> 24) * ITEM_WORDS;
       const y = (Math.imul((b & STEPS) - (b >>> 16) - lowY, scaleY) >>> 24) * ITEM_WORDS + axisWords;
       const z = (Math.imul((c & STEPS) - (c >>> 16) - lowZ, scaleZ) >>> 24) * ITEM_WORDS + 2 * axisWords;
