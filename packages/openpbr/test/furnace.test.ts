@@ -42,6 +42,20 @@ const METALS = {
     whiteMetal(p.specular_roughness, p.specular_roughness_anisotropy, wo),
 };
 const DIELECTRICS = { ...AROUND, exact: whiteDielectric };
+/** Rows whose faults others show: an index or an anisotropy between two that are there, and a lobe with more roughness. */
+const BETWEEN = [
+  'index 1.2 over rough diffuse',
+  'index 1.2 over diffuse',
+  'glass of index 1.33',
+  'glass of index 1.33 from inside',
+  'glass of index 1.05 from inside',
+  'glass of index 1.01 from inside',
+  'rough coat over diffuse',
+  'anisotropic metal, anisotropy 0.5',
+  'anisotropic dielectric over diffuse, anisotropy 0.5',
+  'anisotropic glass, anisotropy 0.5',
+  'anisotropic glass from inside, anisotropy 0.5',
+];
 const ROWS: readonly Row[] = [
   row('metal', METAL, [0.997, 1.001]),
   row('diffuse', { specular_weight: 0 }, [0.999, 1.001]),
@@ -140,7 +154,8 @@ const ROWS: readonly Row[] = [
 
 describe('white furnace, lobe by lobe', () => {
   const record = resultsOf('furnace');
-  for (const { name, parameters, low, high, inside = false, azimuths = [0.4], exact } of ROWS) {
+  const rows = FULL ? ROWS : ROWS.filter(({ name }) => !BETWEEN.includes(name));
+  for (const { name, parameters, low, high, inside = false, azimuths = [0.4], exact } of rows) {
     it(`${name}: ${low} to ${high}`, () => {
       const seen = { min: Infinity, max: -Infinity, density: 0 };
       for (const [i, specular_roughness] of ROUGHNESSES.entries()) {
@@ -172,7 +187,7 @@ describe('white furnace, lobe by lobe', () => {
     });
   }
 
-  for (const specular_ior of [0.3, 0.6, 0.8, 0.9, 0.99, 0.999]) {
+  for (const specular_ior of FULL ? [0.3, 0.6, 0.8, 0.9, 0.99, 0.999] : [0.3, 0.8, 0.999]) {
     const name = `index ${specular_ior} over diffuse`;
     it(`${name}: 0.997 to 1.002`, () => {
       const seen = { min: Infinity, max: -Infinity };

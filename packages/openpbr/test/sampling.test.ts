@@ -39,6 +39,17 @@ const SURFACES: readonly (readonly [string, Partial<OpenPbrParameters>])[] = [
   ],
   ['half metal of a high index', { base_metalness: 0.5, specular_ior: 2.2, specular_roughness: 0.5 }],
 ];
+/** Lobes that others of them have too, which tell by themselves where a fault is. */
+const ALONE = [
+  'the default',
+  'plain diffuse',
+  'metal',
+  'very rough metal',
+  'coat over diffuse',
+  'hazy metal',
+  'retroreflection over diffuse',
+];
+const FULL = process.env['GLANZ_FULL'] !== undefined;
 const VIEWS: readonly OpenPbrVector[] = [direction(0.9), direction(0.25)];
 const SAMPLES = 100_000;
 
@@ -79,6 +90,7 @@ function expectedHits(b: Bsdf, wo: OpenPbrVector): Float64Array {
 
 describe('sampling', () => {
   SURFACES.forEach(([name, given], index) => {
+    if (!FULL && ALONE.includes(name)) return;
     it(`${name}: follows its density, and its weights average to the albedo (${SAMPLES} samples, seeds ${100 + index} and ${200 + index})`, () => {
       const p = resolveParameters(given);
       VIEWS.forEach((wo, view) => {
