@@ -100,7 +100,8 @@ describe('a coat with a normal of its own', () => {
     { geometry_coat_normal: [0.25881905, 0, 0.96592583] },
     { geometry_coat_normal: [-0.3, 0.4, 0.8660254], geometry_coat_tangent: [0, 1, 0], coat_roughness_anisotropy: 0.6 },
   ];
-  it.each(TILTS.map((tilt, i) => [i, tilt] as const))(
+  // The second has what the first has; with GLANZ_FULL both.
+  it.each(TILTS.map((tilt, i) => [i, tilt] as const).slice(process.env['GLANZ_FULL'] === undefined ? 1 : 0))(
     'tilt %i: samples follow their density, and weights are f·cos/pdf',
     (index, tilt) => {
       const p = resolveParameters({ base_color: [0.8, 0.5, 0.2], coat_weight: 0.9, coat_roughness: 0.5, ...tilt });

@@ -16,6 +16,7 @@ import {
 import { resolveParameters, type OpenPbrParameters, type OpenPbrVector } from '../src/parameters/index';
 import { direction, integrateHemisphere } from './integrate';
 import { resultsOf } from './results';
+import { inSample } from './sample';
 import { deltaParts, sphereFurnace } from './sphere';
 import { oracle, type OraclePair, type OracleSetting } from './oracle/index';
 
@@ -191,12 +192,13 @@ const quantile = (values: readonly number[], q: number): number =>
   [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.floor(q * values.length))] as number;
 
 describe('against an independent implementation', () => {
+  // Albedos at each second angle, of one setting these and of the next the others; with GLANZ_FULL at all.
   const record = resultsOf('oracle');
   it('has at least twenty settings to compare', () => {
     expect(settings.length).toBeGreaterThanOrEqual(20);
   });
 
-  for (const setting of settings) {
+  for (const [index, setting] of settings.entries()) {
     const turn = frameOf(setting);
     const { f: tolerance, albedo: albedoTolerance, lobes } = setting.tol;
     const thin = setting.params.geometry_thin_walled ?? false;
@@ -350,7 +352,8 @@ describe('against an independent implementation', () => {
           transmission_color: [1, 1, 1],
           subsurface_color: [1, 1, 1],
         } as const;
-        for (const { mu, R, T, se } of setting.albedo) {
+        for (const [k, { mu, R, T, se }] of setting.albedo.entries()) {
+          if (!inSample(2, index, k)) continue;
           const wo = direction(Math.abs(mu), (25 * Math.PI) / 180);
           if (mu < 0 && !clear) continue;
           const { reflected, transmitted } = sphereFurnace(p, mu > 0 ? wo : [wo[0], -wo[1], wo[2]], {}, 40);
@@ -382,8 +385,8 @@ describe('against an independent implementation', () => {
 
     if (!FOLLOWS_TEXT_INSTEAD.includes(setting.id) && ![...THIN_WALLS, ...PAPER].includes(setting.id)) {
       it(`${setting.id}: reflected and transmitted parts of uniform light`, () => {
-        for (const { mu, R, T, se } of setting.albedo) {
-          if (mu <= 0 && !clear) continue;
+        for (const [k, { mu, R, T, se }] of setting.albedo.entries()) {
+          if ((mu <= 0 && !clear) || !inSample(2, index, k)) continue;
           const side = sideOf(mu);
           const azimuth = (25 * Math.PI) / 180;
           const wo = mu > 0 ? turn(direction(mu, azimuth)) : over(turn(direction(mu, azimuth)));

@@ -33,7 +33,7 @@ const options = {
 interface Turn {
   /** Of each frame while the view moved: whether it was filtered. */
   readonly frames: boolean[];
-  /** Codes of the last frame that moved, RGBA, and of the same view after 128 samples, if it turned. */
+  /** Codes of the last frame that moved, RGBA, and of the same view after 128 samples, if it was filtered. */
   readonly moving: number[];
   readonly final: number[];
   readonly width: number;
@@ -86,7 +86,7 @@ const turn = (page: Page, mode: PreviewMode, turns: boolean): Promise<Turn> =>
       await until(() => viewer.state === 'done');
       const film = [...(await viewer.tracer!.read('beauty'))];
       const { sampleCount } = viewer;
-      if (steps) viewer.samples = 128;
+      if (preview === 'filtered') viewer.samples = 128;
       await until(() => viewer.state === 'done' && viewer.sampleCount === viewer.samples);
       await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
       const result = {
@@ -117,7 +117,8 @@ test('frames of a moving view have less noise, and the image at rest is that of 
     expect(film).toEqual(still.film);
   }
   // On the walls, away from their edges.
-  const error = ({ moving, final, width }: Turn) => {
+  const { final, width } = filtered;
+  const error = ({ moving }: Turn) => {
     let [sum, count] = [0, 0];
     for (let i = 4 * (width + 1); i < final.length - 4 * (width + 1); i++) {
       const around = [-4 * width, -4, 4, 4 * width].map((step) => Math.abs(final[i]! - final[i + step]!));
