@@ -7,9 +7,10 @@ import { createGpu } from '@glanz/renderer/node';
 import type { Benchmark, Figure } from '../benchmark';
 import { crossing, type Point } from '../denoise/crossing';
 import { flipOfFiles, serveFlipJobs, writeImage } from '../denoise/flip-jobs';
-import { PRODUCT_DATA, PRODUCT_SCENES } from '../denoise/product-scenes';
+import { PRODUCT_DATA } from '../denoise/product-scenes';
+import { TIME_SCENES, timeScene } from '../denoise/time-scenes';
 import { packedFolder } from '../equal-time/load';
-import { BenchError } from '../error';
+import { geometricMean } from '../loading/report';
 
 const WEIGHTS = 'packages/denoise-weights/weights';
 const QUALITIES = ['fast', 'balanced'] as const;
@@ -17,8 +18,6 @@ const QUALITIES = ['fast', 'balanced'] as const;
 const CLEAN = 0.05;
 /** How much sooner an image shall be clean, in the geometric mean. */
 const SOONER = 5;
-/** Bounces beyond this change nothing that can be seen in these scenes. */
-const DEPTH = 12;
 
 type Way = 'film' | (typeof QUALITIES)[number];
 const WAYS: readonly Way[] = ['film', ...QUALITIES];
@@ -61,26 +60,32 @@ async function addSamples(tracer: PathTracer, samples: number): Promise<void> {
 export const benchmark: Benchmark = {
   description: `time to a FLIP of ${CLEAN} against a long render, denoised and not, on ten product scenes at 1920 × 1080`,
   options: {
-    scenes: { type: 'string', help: 'names with semicolons; default: all' },
+    scenes: {
+      type: 'string',
+      help: `names with semicolons, of products or of the models of bench:pack -- --products; default: ${TIME_SCENES.join(';')}`,
+    },
     weights: { type: 'string', help: `folder of the .tza archives; default: ${WEIGHTS}` },
     'reference-seconds': { type: 'string', help: 'that a reference is rendered for; default: 10' },
+    seconds: { type: 'string', help: 'after which a film that is not clean is given up; default: a third of that' },
+    toggles: {
+      type: 'string',
+      help: 'toggles of Dawn: allow_unsafe_apis,vulkan_enable_f16_on_nvidia for subgroup matrices on NVIDIA GPUs',
+    },
     deadline: { type: 'string', help: 'seconds after which no scene is begun' },
   },
   async run({ log, quick, gpu: name, values }) {
     serveFlipJobs();
     const started = performance.now();
-    const scenes = values['scenes']?.split(';') ?? Object.keys(PRODUCT_SCENES).slice(0, quick ? 1 : undefined);
-    const unknown = scenes.find((scene) => !Object.hasOwn(PRODUCT_SCENES, scene));
-    if (unknown !== undefined)
-      throw new BenchError(
-        'bench/option',
-        `--scenes: there is no "${unknown}"; there are: ${Object.keys(PRODUCT_SCENES).join('; ')}.`,
-      );
-    const { gpu, adapterName, software } = await createGpu(name ? { gpu: name } : {});
+    const scenes = values['scenes']?.split(';') ?? TIME_SCENES.slice(0, quick ? 1 : undefined);
+    const { gpu, adapterName, software } = await createGpu({
+      ...(name ? { gpu: name } : {}),
+      ...(values['toggles'] === undefined ? {} : { toggles: values['toggles'].split(',') }),
+    });
     const device = await requestDevice({ gpu });
     const [width, height] = quick ? [96, 54] : [1920, 1080];
     const maximum = quick ? 4 : 1024;
     const seconds = quick ? 1 : Number(values['reference-seconds'] ?? 10);
+    const limit = 1e3 * (quick ? 1 : Number(values['seconds'] ?? seconds / 3));
     const packed = packedFolder(PRODUCT_DATA);
     const weights = values['weights'] ?? (packed ? join(packed, 'weights') : WEIGHTS);
     const denoisers = await Promise.all(
@@ -98,20 +103,20 @@ export const benchmark: Benchmark = {
           notes.push(`${scene}: left out, the deadline had passed`);
           continue;
         }
-        const product = await PRODUCT_SCENES[scene]!(width / height);
+        const product = await timeScene(scene, width, height);
         const create = (options: Partial<PathTracerOptions>) =>
           PathTracer.create(device, product.scene, {
             width,
             height,
             camera: product.camera,
-            maxDepth: DEPTH,
+            maxDepth: product.maxDepth,
             ...options,
           });
         const file = (way: string, samples: number) => join(folder, `${scenes.indexOf(scene)}-${way}-${samples}.rgb`);
         const reference = file('reference', 0);
         const long = await create({ seed: 5001 });
         const until = performance.now() + 1000 * seconds;
-        while (performance.now() < until || long.samples < 2 * maximum) await addSamples(long, long.samples + 64);
+        while (performance.now() < until && long.samples < 8 * maximum) await addSamples(long, long.samples + 64);
         const referenceSamples = long.samples;
         writeImage(reference, await long.read('beauty'));
         long.destroy();
@@ -126,7 +131,7 @@ export const benchmark: Benchmark = {
           if (guided) for (const [, denoiser] of denoisers) await denoiser.denoiseTracer(tracer);
           tracer.reset();
           let rendering = 0;
-          for (let samples = 1; samples <= maximum; samples *= 2) {
+          for (let samples = 1; samples <= maximum && rendering < limit; samples *= 2) {
             rendering += await elapsed(device, () => addSamples(tracer, samples));
             const shot = (way: Way, milliseconds: number, image: Float32Array) => {
               const target = file(way, samples);
@@ -160,12 +165,9 @@ export const benchmark: Benchmark = {
         width,
         height,
       }));
-      const errors = await flipOfFiles(jobs, CLEAN, folder);
+      const errors = await flipOfFiles(jobs, folder);
       const rows = series.map(({ scene, way, shots }, i) => {
-        const points = shots.flatMap(({ samples, milliseconds }, k) => {
-          const error = errors[i]![k];
-          return error === null || error === undefined ? [] : [{ samples, milliseconds, error }];
-        });
+        const points = shots.map(({ samples, milliseconds }, k) => ({ samples, milliseconds, error: errors[i]![k]! }));
         const clean = crossing(points, CLEAN);
         log(
           `${scene}, ${way}: clean after ${clean?.toFixed(1) ?? `more than ${points.at(-1)!.milliseconds.toFixed(0)}`} ms; FLIP ${points.map(({ samples, error }) => `${error.toFixed(3)} at ${samples}`).join(', ')}`,
@@ -173,7 +175,7 @@ export const benchmark: Benchmark = {
         return { scene, way, points, clean };
       });
       return {
-        settings: { width, height, scenes, depth: DEPTH, clean: CLEAN, qualities: QUALITIES },
+        settings: { width, height, scenes, clean: CLEAN, qualities: QUALITIES },
         gpu: { name: adapterName, software },
         figures: QUALITIES.flatMap((quality) => figuresOf(quality, rows)),
         notes,
@@ -185,44 +187,58 @@ export const benchmark: Benchmark = {
   },
 };
 
-/** How much sooner images are clean. Where a film never was, its last image counts as if it had been. */
+/** How much sooner images are clean, and what a denoised sample is worth. */
 function figuresOf(quality: (typeof QUALITIES)[number], rows: readonly Row[]): Figure[] {
-  const ratios = rows.flatMap(({ scene, way, clean }) => {
-    if (way !== quality) return [];
-    const film = rows.find((row) => row.scene === scene && row.way === 'film')!;
-    return [clean === undefined ? 0 : (film.clean ?? film.points.at(-1)!.milliseconds) / clean];
+  const pairs = rows.flatMap((denoised) => {
+    const film = rows.find((row) => row.scene === denoised.scene && row.way === 'film')!;
+    return denoised.way === quality ? [{ film, denoised }] : [];
   });
+  const noisy = pairs.filter(({ film }) => film.points[0]!.error > CLEAN);
+  return [
+    ...soonerFigures(quality, pairs),
+    ...(noisy.length === pairs.length ? [] : soonerFigures(`${quality}, not clean with a first sample`, noisy)),
+    ...samplesSaved(quality, pairs),
+  ];
+}
+
+/** A film and its denoised images. */
+interface Pair {
+  readonly film: Row;
+  readonly denoised: Row;
+}
+
+/** Times of films over those of denoised images. Where a film never was clean, its last image counts as if it had been. */
+function soonerFigures(what: string, pairs: readonly Pair[]): Figure[] {
+  const ratios = pairs.map(({ film, denoised }) =>
+    denoised.clean === undefined ? 0 : (film.clean ?? film.points.at(-1)!.milliseconds) / denoised.clean,
+  );
   if (ratios.length === 0) return [];
   const target = (value: number, source: string) => ({ value, relation: '>=' as const, source });
   return [
     {
-      name: `${quality}: sooner clean, geometric mean`,
+      name: `${what}: sooner clean, geometric mean`,
       unit: '×',
       runs: ratios.length,
       min: Math.min(...ratios),
-      median: Math.exp(ratios.reduce((sum, ratio) => sum + Math.log(ratio), 0) / ratios.length),
+      median: geometricMean(ratios),
       max: Math.max(...ratios),
       target: target(SOONER, 'clean at once'),
     },
     {
-      name: `${quality}: sooner clean, the least of the scenes`,
+      name: `${what}: sooner clean, the least of the scenes`,
       unit: '×',
       runs: ratios.length,
       median: Math.min(...ratios),
       target: target(1, 'never later'),
     },
-    ...samplesSaved(quality, rows),
   ];
 }
 
 /** Samples that the film needs to be as good as its first sample, denoised: what a slower GPU gains. */
-function samplesSaved(quality: (typeof QUALITIES)[number], rows: readonly Row[]): Figure[] {
-  const counts = rows.flatMap(({ scene, way, points }) => {
-    const first = points[0];
-    if (way !== quality || !first) return [];
-    const film = rows.find((row) => row.scene === scene && row.way === 'film')!;
+function samplesSaved(quality: string, pairs: readonly Pair[]): Figure[] {
+  const counts = pairs.map(({ film, denoised }) => {
     const inSamples = film.points.map(({ samples, error }) => ({ samples, error, milliseconds: samples }));
-    return [crossing(inSamples, first.error) ?? film.points.at(-1)!.samples];
+    return crossing(inSamples, denoised.points[0]!.error) ?? film.points.at(-1)!.samples;
   });
   if (counts.length === 0) return [];
   return [
@@ -231,7 +247,7 @@ function samplesSaved(quality: (typeof QUALITIES)[number], rows: readonly Row[])
       unit: 'samples',
       runs: counts.length,
       min: Math.min(...counts),
-      median: Math.exp(counts.reduce((sum, count) => sum + Math.log(count), 0) / counts.length),
+      median: geometricMean(counts),
       max: Math.max(...counts),
     },
   ];

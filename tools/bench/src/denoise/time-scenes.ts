@@ -1,0 +1,46 @@
+import type { Camera, Scene } from '@glanz/scene';
+import { taskScene } from '../equal-time/glanz';
+import { BenchError } from '../error';
+import { PRODUCTS } from '../products/scenes';
+import { PRODUCT_SCENES } from './product-scenes';
+
+/** Bounces beyond this change nothing that can be seen in {@link PRODUCT_SCENES}. */
+const DEPTH = 12;
+
+/** A scene as `denoise-time` renders it. */
+export interface TimeScene {
+  readonly scene: Scene;
+  readonly camera: Camera;
+  readonly maxDepth: number;
+}
+
+/** What `denoise-time` measures unless it is told otherwise: ten products, most of them slow to become clean. */
+export const TIME_SCENES: readonly string[] = [
+  'room',
+  'tumbler',
+  'ring',
+  'perfume',
+  'mail',
+  'jade',
+  'wax',
+  'amplifier',
+  'button-sun',
+  'watch',
+];
+
+/**
+ * A scene by its name: one of `products`, or of the ten of {@link PRODUCT_SCENES}.
+ *
+ * @throws {BenchError} `bench/option` where there is none, `bench/missing-data` where its file is absent.
+ */
+export async function timeScene(name: string, width: number, height: number): Promise<TimeScene> {
+  const make = Object.hasOwn(PRODUCT_SCENES, name) ? PRODUCT_SCENES[name] : undefined;
+  if (make) return { ...(await make(width / height)), maxDepth: DEPTH };
+  const product = PRODUCTS.find((one) => one.name === name);
+  if (!product) {
+    const known = [...PRODUCTS.map((one) => one.name), ...Object.keys(PRODUCT_SCENES)];
+    throw new BenchError('bench/option', `--scenes: there is no "${name}"; there are: ${known.join('; ')}.`);
+  }
+  const task = await product.task(width, height);
+  return { scene: await taskScene(task), camera: task.camera, maxDepth: task.maxDepth };
+}
