@@ -6,7 +6,7 @@ import { PathTracer, requestDevice, type PathTracerOptions } from '@glanz/render
 import { createGpu } from '@glanz/renderer/node';
 import type { Benchmark, Figure } from '../benchmark';
 import { crossing, type Point } from '../denoise/crossing';
-import { flipOfFiles, serveFlipJobs, writeImage } from '../denoise/flip-jobs';
+import { flipOfFiles, serveFlipJobs, writeImage, type FlipJob } from '../denoise/flip-jobs';
 import { PRODUCT_DATA } from '../denoise/product-scenes';
 import { TIME_SCENES, timeScene } from '../denoise/time-scenes';
 import { packedFolder } from '../equal-time/load';
@@ -29,15 +29,7 @@ interface Shot {
   readonly file: string;
 }
 
-/** Images of a scene, made one way, with ever more samples. */
-interface Series {
-  readonly scene: string;
-  readonly way: Way;
-  readonly reference: string;
-  readonly shots: Shot[];
-}
-
-/** A series with the errors of its images, and when they are clean. */
+/** Images of a scene, made one way, with ever more samples: their errors, and when they are clean. */
 interface Row {
   readonly scene: string;
   readonly way: Way;
@@ -95,7 +87,9 @@ export const benchmark: Benchmark = {
       }),
     );
     const folder = mkdtempSync(join(tmpdir(), 'glanz-denoise-time-'));
-    const series: Series[] = [];
+    const rows: Row[] = [];
+    // A scene's images are compared while the next one's reference is rendered, and nothing is timed meanwhile.
+    let compared = Promise.resolve();
     const notes: string[] = [];
     try {
       for (const scene of scenes) {
@@ -120,10 +114,8 @@ export const benchmark: Benchmark = {
         const referenceSamples = long.samples;
         writeImage(reference, await long.read('beauty'));
         long.destroy();
-        const made = Object.fromEntries(
-          WAYS.map((way) => [way, { scene, way, reference, shots: [] as Shot[] }]),
-        ) as unknown as Record<Way, Series>;
-        series.push(...Object.values(made));
+        await compared;
+        const made: Record<Way, Shot[]> = { film: [], fast: [], balanced: [] };
         for (const guided of [false, true]) {
           const tracer = await create(guided ? { aovs: ['albedo', 'normal'] } : {});
           // Whatever happens once, such as allocations, comes before what is timed.
@@ -136,7 +128,7 @@ export const benchmark: Benchmark = {
             const shot = (way: Way, milliseconds: number, image: Float32Array) => {
               const target = file(way, samples);
               writeImage(target, image);
-              made[way].shots.push({ samples, milliseconds, file: target });
+              made[way].push({ samples, milliseconds, file: target });
             };
             if (!guided) {
               shot('film', rendering, await tracer.read('beauty'));
@@ -151,29 +143,17 @@ export const benchmark: Benchmark = {
           }
           tracer.destroy();
         }
-        const last = made.film.shots.at(-1)!;
+        const last = made.film.at(-1)!;
         log(
           `${scene}: reference of ${referenceSamples} samples; ${(last.milliseconds / last.samples).toFixed(2)} ms a sample`,
         );
+        compared = rowsOf(scene, made, { reference, width, height }, log).then((found) => void rows.push(...found));
       }
       for (const [, denoiser] of denoisers) denoiser.destroy();
       device.destroy();
-      log('comparing');
-      const jobs = series.map(({ shots, reference }) => ({
-        tests: shots.map((shot) => shot.file),
-        reference,
-        width,
-        height,
-      }));
-      const errors = await flipOfFiles(jobs, folder);
-      const rows = series.map(({ scene, way, shots }, i) => {
-        const points = shots.map(({ samples, milliseconds }, k) => ({ samples, milliseconds, error: errors[i]![k]! }));
-        const clean = crossing(points, CLEAN);
-        log(
-          `${scene}, ${way}: clean after ${clean?.toFixed(1) ?? `more than ${points.at(-1)!.milliseconds.toFixed(0)}`} ms; FLIP ${points.map(({ samples, error }) => `${error.toFixed(3)} at ${samples}`).join(', ')}`,
-        );
-        return { scene, way, points, clean };
-      });
+      await compared;
+      for (const { scene, way, clean } of rows)
+        if (clean === undefined) notes.push(`${scene}, ${way}: not clean within ${limit / 1e3} s`);
       return {
         settings: { width, height, scenes, clean: CLEAN, qualities: QUALITIES },
         gpu: { name: adapterName, software },
@@ -186,6 +166,24 @@ export const benchmark: Benchmark = {
     }
   },
 };
+
+/** Compares the images of a scene. */
+async function rowsOf(
+  scene: string,
+  made: Readonly<Record<Way, readonly Shot[]>>,
+  job: Omit<FlipJob, 'tests'>,
+  log: (line: string) => void,
+): Promise<Row[]> {
+  const errors = await flipOfFiles({ ...job, tests: WAYS.flatMap((way) => made[way].map(({ file }) => file)) });
+  return WAYS.map((way) => {
+    const points = made[way].map(({ samples, milliseconds }) => ({ samples, milliseconds, error: errors.shift()! }));
+    const clean = crossing(points, CLEAN);
+    log(
+      `${scene}, ${way}: clean after ${clean?.toFixed(1) ?? `more than ${points.at(-1)!.milliseconds.toFixed(0)}`} ms; FLIP ${points.map(({ samples, error, milliseconds }) => `${error.toFixed(3)} at ${samples} (${milliseconds.toFixed(0)} ms)`).join(', ')}`,
+    );
+    return { scene, way, points, clean };
+  });
+}
 
 /** How much sooner images are clean, and what a denoised sample is worth. */
 function figuresOf(quality: (typeof QUALITIES)[number], rows: readonly Row[]): Figure[] {
@@ -207,11 +205,16 @@ interface Pair {
   readonly denoised: Row;
 }
 
-/** Times of films over those of denoised images. Where a film never was clean, its last image counts as if it had been. */
+/**
+ * Times of films over those of denoised images. Where a film never was clean, its last image counts as if it had been;
+ * a scene in which neither was is left out.
+ */
 function soonerFigures(what: string, pairs: readonly Pair[]): Figure[] {
-  const ratios = pairs.map(({ film, denoised }) =>
-    denoised.clean === undefined ? 0 : (film.clean ?? film.points.at(-1)!.milliseconds) / denoised.clean,
-  );
+  const ratios = pairs.flatMap(({ film, denoised }) => {
+    const late = film.points.at(-1)!.milliseconds;
+    if (denoised.clean === undefined) return film.clean === undefined ? [] : [0];
+    return [(film.clean ?? late) / denoised.clean];
+  });
   if (ratios.length === 0) return [];
   const target = (value: number, source: string) => ({ value, relation: '>=' as const, source });
   return [

@@ -84,12 +84,17 @@ export function filterPlane(
   alongY: Taps,
 ): Float64Array {
   const rows = new Float64Array(plane.length);
+  const { radius } = alongX;
+  const padded = new Float64Array(width + 2 * radius);
   for (let y = 0; y < height; y++) {
+    const [from, to] = [y * width, (y + 1) * width];
+    padded.fill(plane[from]!, 0, radius);
+    padded.set(plane.subarray(from, to), radius);
+    padded.fill(plane[to - 1]!, radius + width);
     for (let x = 0; x < width; x++) {
       let value = 0;
-      for (let k = -alongX.radius; k <= alongX.radius; k++)
-        value += alongX.weights[k + alongX.radius]! * plane[y * width + Math.min(Math.max(x + k, 0), width - 1)]!;
-      rows[y * width + x] = value;
+      for (let k = 0; k <= 2 * radius; k++) value += alongX.weights[k]! * padded[x + k]!;
+      rows[from + x] = value;
     }
   }
   const out = new Float64Array(plane.length);
