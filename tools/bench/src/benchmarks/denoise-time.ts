@@ -19,6 +19,9 @@ const CLEAN = 0.05;
 /** How much sooner an image shall be clean, in the geometric mean. */
 const SOONER = 5;
 
+/** Samples before what is timed. */
+const WARM_UP = 16;
+
 type Way = 'film' | (typeof QUALITIES)[number];
 const WAYS: readonly Way[] = ['film', ...QUALITIES];
 
@@ -118,8 +121,9 @@ export const benchmark: Benchmark = {
         const made: Record<Way, Shot[]> = { film: [], fast: [], balanced: [] };
         for (const guided of [false, true]) {
           const tracer = await create(guided ? { aovs: ['albedo', 'normal'] } : {});
-          // Whatever happens once, such as allocations, comes before what is timed.
-          await addSamples(tracer, 2);
+          // Whatever happens once, such as allocations, comes before what is timed; and the schedule finds the size of
+          // submissions, which a first one with programs that were never used would make small.
+          await addSamples(tracer, WARM_UP);
           if (guided) for (const [, denoiser] of denoisers) await denoiser.denoiseTracer(tracer);
           tracer.reset();
           let rendering = 0;
