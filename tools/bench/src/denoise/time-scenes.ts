@@ -14,7 +14,7 @@ export interface TimeScene {
   readonly maxDepth: number;
 }
 
-/** What `denoise-time` measures unless it is told otherwise: ten products, most of them slow to become clean. */
+/** What `denoise-time` measures by default: ten products whose films take long to become clean. */
 export const TIME_SCENES: readonly string[] = [
   'room',
   'tumbler',
