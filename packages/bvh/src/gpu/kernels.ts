@@ -50,7 +50,7 @@ export async function compileCommon(device: GPUDevice): Promise<CommonKernels> {
   const top = { 1: 'write', 2: 'read', 3: 'write', 5: 'write', 6: 'write' } as const;
   const [sort, ...made] = await Promise.all([
     compileSort(device),
-    compileKernel(device, 'bvh codes', codes, {}, { ...base, 2: 'read', 3: 'write' }),
+    compileKernel(device, 'bvh codes', codes, {}, { ...base, 2: 'read', 3: 'write', 4: 'read' }),
     compileKernel(device, 'bvh lowest clusters', cluster, { BVH_GPU_LOWEST: true }, { ...clusters, 3: 'read' }),
     compileKernel(device, 'bvh clusters', cluster, { BVH_GPU_LOWEST: false }, clusters),
     compileKernel(device, 'bvh root', root, {}, top),

@@ -77,16 +77,26 @@ export function listPhases(
   const { params } = input;
   const { globals, primitives, digits, places, heads, nodes, order } = scratch;
   const threads = Math.ceil(count / 256);
-  const sort = [0, 1, 2, 3].flatMap((pass) => {
+  const codes = (level: number, side: 'A' | 'B') => ({
+    kernel: kernels.codes,
+    params: { ...params, level },
+    buffers: { 1: primitives, 2: globals, 3: scratch[`keys ${side}`], 4: scratch[`values ${side}`] },
+    workgroups: threads,
+  });
+  // Three passes by the lower codes, and three by the upper ones.
+  const sort = [0, 1, 2, 3, 4, 5].flatMap((pass) => {
     const [from, to] = pass % 2 === 0 ? (['A', 'B'] as const) : (['B', 'A'] as const);
-    return sortPass(
-      kernels,
-      { ...params, shift: 8 * pass, tiles, holes: pass === 0 ? 1 : 0 },
-      globals,
-      digits,
-      [scratch[`keys ${from}`], scratch[`values ${from}`]],
-      [scratch[`keys ${to}`], scratch[`values ${to}`]],
-    );
+    return [
+      ...(pass === 3 ? [codes(1, from)] : []),
+      ...sortPass(
+        kernels,
+        { ...params, shift: 8 * (pass % 3), tiles, holes: pass === 0 ? 1 : 0 },
+        globals,
+        digits,
+        [scratch[`keys ${from}`], scratch[`values ${from}`]],
+        [scratch[`keys ${to}`], scratch[`values ${to}`]],
+      ),
+    ];
   });
   const levelParams = levels.map(({ firstDraft, firstHead }, level): Params => ({
     ...params,
@@ -105,12 +115,7 @@ export function listPhases(
         buffers: { ...input.buffers, 3: primitives, 4: globals },
         workgroups: threads,
       },
-      {
-        kernel: kernels.codes,
-        params,
-        buffers: { 1: primitives, 2: globals, 3: scratch['keys A'] },
-        workgroups: threads,
-      },
+      codes(0, 'A'),
     ],
     sort,
     cluster: levels.map(({ blocks }, level) => ({

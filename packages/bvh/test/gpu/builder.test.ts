@@ -1,8 +1,8 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
-import { buildBlas, closestHit, type TriangleMesh } from '../../src/index';
+import { buildBlas, closestHit, type Blas, type TriangleMesh } from '../../src/index';
 import { GpuBuilder } from '../../src/gpu/index';
-import { sahCost } from '../../src/statistics';
+import { bvhStatistics, sahCost } from '../../src/statistics';
 import { bruteForce, direction, randomNumbers, sphere, strewn } from '../shapes';
 import { checkBlas } from '../structure';
 import { buildOnGpu, deviceWith } from './builds';
@@ -123,6 +123,35 @@ test('the surface area cost is at most 1.1 times that of balanced', async () => 
     expect(sahCost(blas)).toBeLessThan(1.1 * sahCost(buildBlas(mesh)));
     gpu.destroy();
   }
+});
+
+test('trees are about as deep as those of balanced', async () => {
+  // Joined by surface alone, clusters that grow one by one make trees half as deep again.
+  const mesh = sphere(128);
+  const { blas, gpu } = await buildOnGpu(device, builder, mesh);
+  expect(bvhStatistics(blas).depth).toBeLessThan(1.25 * bvhStatistics(buildBlas(mesh)).depth);
+  gpu.destroy();
+});
+
+test('a detail of 1/200 of the scene gets as good a tree as it gets alone (seed 10)', async () => {
+  const detail = strewn(20_000, 0.05, randomNumbers(10));
+  const positions = new Float32Array(detail.positions.length + 9);
+  positions.set(detail.positions);
+  positions.set([-200, -200, -200, 200, 200, 200, -200, 200, 200], detail.positions.length);
+  const [alone, within] = [await buildOnGpu(device, builder, detail), await buildOnGpu(device, builder, { positions })];
+  /** Sum of the surfaces of all boxes within the detail. */
+  const surfaces = ({ nodes, nodeCount }: Blas) => {
+    let sum = 0;
+    for (let at = 0; at < 16 * nodeCount; at += 8) {
+      const [x, y, z] = [0, 1, 2].map((k) => nodes[at + 4 + k]! - nodes[at + k]!) as [number, number, number];
+      if (Math.max(x, y, z) < 10) sum += x * y + y * z + z * x;
+    }
+    return sum;
+  };
+  // Other cells make another tree, a little better or worse.
+  expect(surfaces(within.blas)).toBeLessThan(1.05 * surfaces(alone.blas));
+  alone.gpu.destroy();
+  within.gpu.destroy();
 });
 
 test('is deterministic, also after other builds', async () => {
