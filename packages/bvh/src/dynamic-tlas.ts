@@ -1,6 +1,7 @@
 import { NodeWriter } from './builders/node-writer';
 import { buildOverBoxes } from './builders/over-boxes';
 import { BvhError } from './error';
+import { ABOVE_ROOT, bestSlot, boxAt, heightOf, NOWHERE, rootSurface, surfaceAt } from './insertion';
 import {
   FAR,
   LEAF,
@@ -24,16 +25,6 @@ import { checkTransform, placeInstance, type TlasInstance } from './place-instan
 const REBUILD_PART = 1 / 4;
 /** Fewer changes than this never lead to a rebuild. */
 const REBUILD_MIN = 64;
-
-/** The slot that stands for a new root above the present one. */
-const ABOVE_ROOT = -1;
-const NOWHERE = -2;
-
-/** Where the box of a slot begins; its upper corner lies four words on. A slot is the word of a reference. */
-const boxAt = (slot: number): number => slot - LEFT + (slot & LEFT_MAX);
-
-/** Half the surface. */
-const surface = (x: number, y: number, z: number): number => x * y + y * z + z * x;
 
 /**
  * A TLAS that changes in place: moving, adding or removing one of `n` instances costs about log n, where `buildTlas`
@@ -215,25 +206,15 @@ export class DynamicTlas implements Tlas {
     this.#changed.push(node);
   }
 
-  #surfaceAt(slot: number): number {
-    const memory = this.#memory,
-      at = boxAt(slot);
-    return surface(
-      (memory[at + 4] as number) - (memory[at] as number),
-      (memory[at + 5] as number) - (memory[at + 1] as number),
-      (memory[at + 6] as number) - (memory[at + 2] as number),
-    );
-  }
-
   #setBox(slot: number, box: Float32Array): void {
     const memory = this.#memory,
       at = boxAt(slot);
-    this.#surfaces -= this.#surfaceAt(slot);
+    this.#surfaces -= surfaceAt(this.#memory, slot);
     for (let k = 0; k < 3; k++) {
       memory[at + k] = box[k] as number;
       memory[at + 4 + k] = box[3 + k] as number;
     }
-    this.#surfaces += this.#surfaceAt(slot);
+    this.#surfaces += surfaceAt(this.#memory, slot);
     this.#mark(slot >>> 4);
   }
 
@@ -242,12 +223,12 @@ export class DynamicTlas implements Tlas {
     const memory = this.#memory;
     const a = boxAt(from),
       b = boxAt(to);
-    this.#surfaces -= this.#surfaceAt(to);
+    this.#surfaces -= surfaceAt(this.#memory, to);
     for (let k = 0; k < 3; k++) {
       memory[b + k] = memory[a + k] as number;
       memory[b + 4 + k] = memory[a + 4 + k] as number;
     }
-    this.#surfaces += this.#surfaceAt(to);
+    this.#surfaces += surfaceAt(this.#memory, to);
     this.#refer(to, this.#words[from] as number);
   }
 
@@ -280,7 +261,8 @@ export class DynamicTlas implements Tlas {
   /** Frees a node that nothing refers to: the last node takes its place. @returns Where `watched` is now. */
   #freeNode(node: number, watched: number): number {
     const last = --this.#nodeCount;
-    this.#surfaces -= this.#surfaceAt(node * NODE_WORDS + LEFT) + this.#surfaceAt(node * NODE_WORDS + RIGHT);
+    this.#surfaces -=
+      surfaceAt(this.#memory, node * NODE_WORDS + LEFT) + surfaceAt(this.#memory, node * NODE_WORDS + RIGHT);
     if (node === last) return watched;
     const slot = this.#slotOf(last);
     const to = node * NODE_WORDS,
@@ -331,7 +313,7 @@ export class DynamicTlas implements Tlas {
       this.#count++;
       return true;
     }
-    const slot = this.#bestSlot();
+    const slot = bestSlot(this.#memory, this.#words, this.#heights, this.#box, TLAS_MAX_DEPTH);
     if (slot === NOWHERE) return false;
     this.#count++;
     const node = this.#newNode();
@@ -355,60 +337,6 @@ export class DynamicTlas implements Tlas {
     return true;
   }
 
-  #heightOf(reference: number): number {
-    return reference < LEAF ? (this.#heights[reference] as number) : 0;
-  }
-
-  /** Half the surface of the union of a slot's box and the current one. */
-  #surfaceWith(slot: number): number {
-    const memory = this.#memory,
-      box = this.#box,
-      at = boxAt(slot);
-    const side = (k: number) =>
-      Math.max(memory[at + 4 + k] as number, box[3 + k] as number) -
-      Math.min(memory[at + k] as number, box[k] as number);
-    return surface(side(0), side(1), side(2));
-  }
-
-  /** The slot where the current box adds least to the surfaces: its future sibling. */
-  #bestSlot(): number {
-    const words = this.#words;
-    const own = surface(
-      (this.#box[3] as number) - (this.#box[0] as number),
-      (this.#box[4] as number) - (this.#box[1] as number),
-      (this.#box[5] as number) - (this.#box[2] as number),
-    );
-    let best = NOWHERE,
-      minimum = Infinity;
-    if ((this.#heights[0] as number) < TLAS_MAX_DEPTH) {
-      best = ABOVE_ROOT;
-      minimum = this.#rootSurface();
-    }
-    // Slots yet to visit, three numbers each: what the boxes above them grow by, inner nodes above them, the slot.
-    const stack = [0, 1, RIGHT, 0, 1, LEFT];
-    while (stack.length > 0) {
-      const slot = stack.pop() as number,
-        depth = stack.pop() as number,
-        grown = stack.pop() as number;
-      if (grown + own >= minimum) continue;
-      const reference = words[slot] as number;
-      const joined = this.#surfaceWith(slot);
-      if (grown + joined < minimum && depth + 1 + this.#heightOf(reference) <= TLAS_MAX_DEPTH) {
-        minimum = grown + joined;
-        best = slot;
-      }
-      if (reference >= LEAF) continue;
-      const below = grown + joined - this.#surfaceAt(slot);
-      if (below + own >= minimum) continue;
-      const left = reference * NODE_WORDS + LEFT,
-        right = reference * NODE_WORDS + RIGHT;
-      const isLeftFirst =
-        this.#surfaceWith(left) - this.#surfaceAt(left) <= this.#surfaceWith(right) - this.#surfaceAt(right);
-      stack.push(below, depth + 1, isLeftFirst ? right : left, below, depth + 1, isLeftFirst ? left : right);
-    }
-    return best;
-  }
-
   /** Fits boxes and heights from a node up to the root, or to where nothing changes. */
   #refit(node: number): void {
     const words = this.#words,
@@ -418,7 +346,11 @@ export class DynamicTlas implements Tlas {
     for (;;) {
       const base = node * NODE_WORDS;
       const height =
-        1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
+        1 +
+        Math.max(
+          heightOf(this.#heights, words[base + LEFT] as number),
+          heightOf(this.#heights, words[base + RIGHT] as number),
+        );
       const isSameHeight = heights[node] === height;
       heights[node] = height;
       if (node === 0) return;
@@ -436,15 +368,9 @@ export class DynamicTlas implements Tlas {
     }
   }
 
-  #rootSurface(): number {
-    const { min, max } = rootBounds(this.#memory);
-    const side = (k: number) => Math.max(0, (max[k] as number) - (min[k] as number));
-    return surface(side(0), side(1), side(2));
-  }
-
   /** The surface area cost, without the terms that are the same in all trees. */
   #cost(): number {
-    const root = this.#rootSurface();
+    const root = rootSurface(this.#memory);
     return root > 0 ? this.#surfaces / root : 0;
   }
 
@@ -491,12 +417,16 @@ export class DynamicTlas implements Tlas {
           words[slot] = leafReference(instance, 1);
           if (this.#memory[boxAt(slot)] !== FAR) this.#slots[instance] = slot;
         }
-        this.#surfaces += this.#surfaceAt(slot);
+        this.#surfaces += surfaceAt(this.#memory, slot);
       }
       words[base + RESERVED] = 0;
       // Built trees have children behind their parents.
       this.#heights[node] =
-        1 + Math.max(this.#heightOf(words[base + LEFT] as number), this.#heightOf(words[base + RIGHT] as number));
+        1 +
+        Math.max(
+          heightOf(this.#heights, words[base + LEFT] as number),
+          heightOf(this.#heights, words[base + RIGHT] as number),
+        );
     }
     this.#isBuilt = true;
     this.#changes = 0;
