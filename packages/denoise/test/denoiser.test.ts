@@ -2,6 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { DenoiseError, Denoiser, type DenoiseImages, type KernelFamily } from '../src/index';
 import { bindImages, denoiseOnGpu, different, download, outputBuffer, upload } from './gpu';
+import { nullDevice } from './null-device';
 import { randomImages, randomNetwork } from './random-network';
 
 let device: GPUDevice;
@@ -347,6 +348,7 @@ describe('create()', () => {
 
 describe.each([false, true])('the end, with WebAssembly: %s', (webAssembly) => {
   it('frees everything', async () => {
+    const { device, errors } = await nullDevice();
     const create = device.createBuffer;
     const alive = new Set<GPUBuffer>();
     const memories: WebAssembly.Memory[] = [];
@@ -382,8 +384,9 @@ describe.each([false, true])('the end, with WebAssembly: %s', (webAssembly) => {
       expect(denoiser.memoryBytes).toBe(0);
     } finally {
       WebAssembly.Memory = Memory;
-      delete (device as { createBuffer?: unknown }).createBuffer;
     }
+    expect(errors).toEqual([]);
+    device.destroy();
   });
 
   it('ends what is under way', async () => {

@@ -4,13 +4,11 @@ import { afterEach, describe, expect, it } from 'vitest';
 import { Denoiser } from '../src/index';
 import tensor from '../src/kernels/tensor.wesl';
 import { denoiseOnGpu } from './gpu';
+import { nullDevice } from './null-device';
 import { CHECKED_CASES, differences, imagesOf, tolerances, weightsOf } from './oracle';
 import { randomImages, randomNetwork } from './random-network';
 
 afterEach(() => expectNoGpuErrors());
-
-/** Dawn's binding for Node crashes where one of its instances is collected. */
-const pinned: GPU[] = [];
 
 describe('half precision as a type of its own', () => {
   it('is used where the device has the feature, and only there', () => {
@@ -21,16 +19,7 @@ describe('half precision as a type of its own', () => {
   });
 
   it('is valid WGSL in every kernel', async () => {
-    // Dawn's null backend has all features, and checks shaders as any other does.
-    const { create } = (await import('webgpu')) as { create: (options: string[]) => GPU };
-    const gpu = create(['backend=null']);
-    pinned.push(gpu);
-    const adapter = (await gpu.requestAdapter())!;
-    const device = await adapter.requestDevice({ requiredFeatures: ['shader-f16'] });
-    const errors: string[] = [];
-    device.addEventListener('uncapturederror', (event) => {
-      errors.push((event as GPUUncapturedErrorEvent).error.message);
-    });
+    const { device, errors } = await nullDevice(['shader-f16']);
     const texts: string[] = [];
     const createShaderModule = device.createShaderModule.bind(device);
     device.createShaderModule = (descriptor) => {

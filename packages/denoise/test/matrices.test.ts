@@ -1,4 +1,3 @@
-import { createRequire } from 'node:module';
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { compose } from '@glanz/wgsl/compose';
 import { afterEach, describe, expect, it } from 'vitest';
@@ -13,6 +12,7 @@ import { halfBits, packMatrices } from '../src/kernels/pack-matrices';
 import { quadsOf } from '../src/pack-weights';
 import { download } from './gpu';
 import { Denoiser } from '../src/index';
+import { nullDevice } from './null-device';
 import { numbersFrom, randomNetwork } from './random-network';
 
 /** Of NVIDIA's GPUs. */
@@ -196,18 +196,7 @@ function expected(layer: Layer, direct: Planes, up: Planes | undefined): Planes 
   return layer.pool ? pool(planes) : planes;
 }
 
-/** Dawn's null backend offers all features and runs nothing. Its subgroups have up to 128 threads. */
-async function nullDevice(): Promise<GPUDevice> {
-  const { create } = createRequire(import.meta.url)('webgpu') as { create(flags: string[]): GPU };
-  const gpu = create(['backend=null', 'enable-dawn-features=allow_unsafe_apis']);
-  // Devices crash once what made them is collected.
-  NULL_GPUS.push(gpu);
-  const adapter = (await gpu.requestAdapter())!;
-  const requiredFeatures = ['shader-f16', 'chromium-experimental-subgroup-matrix'] as GPUFeatureName[];
-  return adapter.requestDevice({ requiredFeatures });
-}
-
-const NULL_GPUS: GPU[] = [];
+const FEATURES = ['shader-f16', 'chromium-experimental-subgroup-matrix'];
 
 afterEach(() => expectNoGpuErrors());
 
@@ -231,7 +220,7 @@ describe('convolution by subgroup matrices', () => {
   });
 
   it('has text that compilers accept, within default limits, for all layers of both graphs', async () => {
-    const device = await nullDevice();
+    const { device } = await nullDevice(FEATURES);
     const flags = { DENOISE_HALF: true, DENOISE_F16: true };
     const seen = new Set<string>();
     for (const channels of [16, 32, 48, 64, 80, 96, 112, 128, 192])
@@ -264,7 +253,7 @@ describe('convolution by subgroup matrices', () => {
   });
 
   it('computes all layers of a network that have as many channels', async () => {
-    const device = await nullDevice();
+    const { device } = await nullDevice(FEATURES);
     const programs: string[] = [];
     const watched = new Proxy(device, {
       get(target, key) {
@@ -292,7 +281,7 @@ describe('convolution by subgroup matrices', () => {
   });
 
   it('gives way to threads where a driver does not compile it', async () => {
-    const device = await testDevice();
+    const { device } = await nullDevice();
     let asked = 0;
     const features = {
       has: (name: string) =>

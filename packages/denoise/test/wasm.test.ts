@@ -9,6 +9,7 @@ import { compileWasm, kernelBytes, type WasmKernels } from '../src/wasm/kernels'
 import { bytesOf, planWasm } from '../src/wasm/plan';
 import { bindImages, denoiseOnGpu, different, TWIN_CASES } from './gpu';
 import { CHECKED_CASES, MISSING, differences, imagesOf, tolerances, weightsOf } from './oracle';
+import { nullDevice } from './null-device';
 import { numbersFrom, randomImages, randomNetwork } from './random-network';
 
 let device: GPUDevice;
@@ -300,7 +301,7 @@ describe('work in WebAssembly', () => {
 
 describe('the choice between WebAssembly and shaders', () => {
   const kernelsOf = async (options: DenoiserOptions, on = device) => {
-    const { images } = bind(16, 16);
+    const { images } = bindImages(on, 16, 16);
     const denoiser = await Denoiser.create(on, weights, options);
     try {
       return (await denoiser.denoise(images)).kernels;
@@ -308,20 +309,22 @@ describe('the choice between WebAssembly and shaders', () => {
       denoiser.destroy();
     }
   };
-  const hardware = () =>
-    new Proxy(device, {
-      get(target, key) {
-        if (key === 'adapterInfo') return { architecture: 'turing', device: '', description: '' };
-        const value = Reflect.get(target, key) as unknown;
-        return typeof value === 'function' ? (value as (...args: unknown[]) => unknown).bind(target) : value;
-      },
-    });
-
   it('is made by the adapter, unless an option makes it', async () => {
+    const { device: none, errors } = await nullDevice();
+    const hardware = () =>
+      new Proxy(none, {
+        get(target, key) {
+          if (key === 'adapterInfo') return { architecture: 'turing', device: '', description: '' };
+          const value = Reflect.get(target, key) as unknown;
+          return typeof value === 'function' ? (value as (...args: unknown[]) => unknown).bind(target) : value;
+        },
+      });
     expect(await kernelsOf({})).toBe('webAssembly');
     expect(await kernelsOf({ webAssembly: false })).toBe('shaders');
     expect(await kernelsOf({}, hardware())).toBe('shaders');
     expect(await kernelsOf({ webAssembly: true }, hardware())).toBe('webAssembly');
+    expect(errors).toEqual([]);
+    none.destroy();
   });
 
   it('falls back to shaders where a policy forbids WebAssembly', async () => {
