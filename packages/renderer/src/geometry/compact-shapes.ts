@@ -2,7 +2,7 @@
 // their own, which all pages load.
 import type { Mesh } from '@glanz/scene';
 import type { ShapeSlice } from '../storage/shape-arrays';
-import type { MeshRegion } from './hierarchy';
+import type { Hierarchy, MeshRegion } from './hierarchy';
 
 /** Bytes of a record or a vertex in the array of triangles. */
 const RECORD_BYTES = 16;
@@ -53,13 +53,13 @@ function* tangentSlices(offset: number, tangents: Float32Array): Generator<Shape
   }
 }
 
-/** Records of triangles and vertices of a mesh. */
+/** Records of triangles and vertices of a mesh. Where its hierarchy is on the GPU, those of triangles are made there. */
 function* slices(
   { positions, indices, normals }: Mesh,
-  { triangleIndices }: { readonly triangleIndices: Uint32Array },
+  { triangleIndices, nodes }: Pick<Hierarchy, 'triangleIndices' | 'nodes'>,
   { firstTriangle, firstVertex }: MeshRegion,
 ): Generator<ShapeSlice> {
-  for (let first = 0; first < triangleIndices.length; first += SLICE_RECORDS) {
+  for (let first = 0; nodes && first < triangleIndices.length; first += SLICE_RECORDS) {
     const count = Math.min(SLICE_RECORDS, triangleIndices.length - first);
     const data = new Uint32Array(4 * count);
     for (let i = 0; i < count; i++) {

@@ -6,15 +6,17 @@ import { DeviceError } from '../errors';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type PagedArray } from '../storage/buffers';
 import { readBuffer } from '../storage/read-buffer';
 import { uploadPace } from '../storage/upload-pace';
+import { encodeRecords, recordsPipeline } from './compact-records';
 import type { CompactShapes } from './compact-shapes';
 import type { GpuBuilds, Hierarchy, HierarchyOnGpu, MeshRegion } from './hierarchy';
 
 // In the same chunk: what poses rigs shares the most with it.
 export { discardPoser, poseOnGpu } from './pose/pose-mesh';
 
-/** Bytes of a node, of a packed triangle, and of a word of the attributes. */
+/** Bytes of a node, of a packed triangle, of a record of compact shapes, and of a word of the attributes. */
 const NODE_BYTES = 64;
 const TRIANGLE_BYTES = 48;
+const RECORD_BYTES = 16;
 const WORD_BYTES = 4;
 
 /** Meshes that are uploaded or built at the same time: the GPU builds one while the next is written. */
@@ -76,6 +78,8 @@ export async function buildOnGpu(
   // Compiled while the first mesh is written.
   const creating = gpuBuilder(device);
   creating.catch(() => {});
+  const compiling = compact && recordsPipeline(device);
+  compiling?.catch(() => {});
 
   const upload = async (label: string, data: Float32Array | Uint32Array): Promise<GPUBuffer> => {
     const what = 'the meshes of this scene';
@@ -125,11 +129,13 @@ export async function buildOnGpu(
       // Lights name stored triangles, and queries on the CPU ask for them.
       const triangleIndices = new Uint32Array(await readBuffer(device, order, order.size)).subarray(0, triangleCount);
       signal.throwIfAborted();
-      for (const buffer of [positions, order]) memory.release(buffer);
-      if (!triangles) memory.release(indices);
+      const records = await compiling;
+      signal.throwIfAborted();
+      memory.release(positions);
+      if (triangles) memory.release(order);
       const base = { nodeCount, triangleIndices, bounds };
-      const left = triangles ? { nodes, triangles, indices } : { nodes };
-      return { ...base, gpu: onGpu({ device, memory }, mesh, base, left) };
+      const left = triangles ? { nodes, triangles, indices } : { nodes, order, indices };
+      return { ...base, gpu: onGpu({ device, memory }, mesh, base, left, records) };
     } catch (error) {
       for (const buffer of own) memory.release(buffer);
       throw error;
@@ -167,7 +173,8 @@ function onGpu(
   { device, memory }: Pick<GpuBuilds, 'device' | 'memory'>,
   mesh: Mesh,
   { triangleIndices, nodeCount, bounds }: Omit<Blas, 'nodes'>,
-  own: { readonly nodes: GPUBuffer } & Partial<Readonly<Record<'triangles' | 'indices', GPUBuffer>>>,
+  own: Readonly<Record<'nodes' | 'indices', GPUBuffer>> & Partial<Readonly<Record<'triangles' | 'order', GPUBuffer>>>,
+  records: GPUComputePipeline | undefined,
 ): HierarchyOnGpu {
   let queries: Blas | undefined;
   let placed: { readonly nodes: GPUBuffer | PagedArray; readonly offset: number } | undefined;
@@ -192,7 +199,7 @@ function onGpu(
     }
   };
   return {
-    place(arrayOf, { firstNode, firstTriangle, firstWord }: MeshRegion) {
+    place(arrayOf, { firstNode, firstTriangle, firstVertex, firstWord }: MeshRegion) {
       const encoder = device.createCommandEncoder({ label: 'glanz place' });
       const nodes = arrayOf('nodes');
       const copy = (from: GPUBuffer, to: GPUBuffer | PagedArray, offset: number, bytes: number) =>
@@ -200,14 +207,22 @@ function onGpu(
           ? to.copyFrom(encoder, from, offset, bytes)
           : encoder.copyBufferToBuffer(from, 0, to, offset, bytes);
       copy(own.nodes, nodes, NODE_BYTES * firstNode, NODE_BYTES * nodeCount);
-      // Compact shapes are written by the CPU.
-      if (own.triangles && own.indices) {
+      const { triangles, order, indices } = own;
+      let freeRecords: (() => void) | undefined;
+      if (triangles) {
         const bytes = TRIANGLE_BYTES * triangleIndices.length;
-        copy(own.triangles, arrayOf('triangles'), TRIANGLE_BYTES * firstTriangle, bytes);
-        // Indices are the first of a mesh's attributes.
-        copy(own.indices, arrayOf('attributes'), WORD_BYTES * firstWord, mesh.indices.byteLength);
+        copy(triangles, arrayOf('triangles'), TRIANGLE_BYTES * firstTriangle, bytes);
+        // Indices are the first of a mesh's attributes; compact shapes have them in their records.
+        copy(indices, arrayOf('attributes'), WORD_BYTES * firstWord, mesh.indices.byteLength);
+      } else if (order && records) {
+        const source = { order, indices, triangleCount: triangleIndices.length, firstVertex };
+        const region = RECORD_BYTES * firstTriangle;
+        freeRecords = encodeRecords({ device, memory }, records, encoder, source, (from, offset, bytes) =>
+          copy(from, arrayOf('triangles'), region + offset, bytes),
+        );
       }
       device.queue.submit([encoder.finish()]);
+      freeRecords?.();
       placed = { nodes, offset: NODE_BYTES * firstNode };
       free();
     },

@@ -2,9 +2,6 @@ import type { Blas } from '@glanz/bvh';
 import { GpuRefitter, type PreparedRefit } from '@glanz/bvh/gpu';
 import type { MeshPose, MeshRig } from '@glanz/scene';
 import { GlanzError } from '@glanz/wgsl';
-import { compose } from '@glanz/wgsl/compose';
-import type { WgslModule } from '@glanz/wgsl/module';
-import { beginShaderModule } from '@glanz/wgsl/shader';
 import { lossOr, withErrorScopes } from '../../device/error-scopes';
 import { DeviceError, RenderError } from '../../errors';
 import {
@@ -17,6 +14,7 @@ import {
 } from '../../storage/buffers';
 import type { ShapeArray } from '../../storage/shape-arrays';
 import type { GpuBuilds, MeshRegion } from '../hierarchy';
+import { pipelineFor } from '../pipeline-for';
 import pose from './pose.wesl';
 import treeCost from './tree_cost.wesl';
 import { PoseBounds } from './pose-bounds';
@@ -40,42 +38,6 @@ const MEASURED = 8;
 export interface PackedPose {
   readonly data: Float32Array<ArrayBuffer>;
   readonly targets: number;
-}
-
-/** Compiled shaders, by device and name. */
-const pipelines = /* @__PURE__ */ new WeakMap<GPUDevice, Map<string, Promise<GPUComputePipeline>>>();
-
-function pipelineFor(
-  device: GPUDevice,
-  label: string,
-  root: WgslModule,
-  flags: Readonly<Record<string, boolean>> = {},
-): Promise<GPUComputePipeline> {
-  const known = pipelines.get(device) ?? new Map<string, Promise<GPUComputePipeline>>();
-  pipelines.set(device, known);
-  const key = label + JSON.stringify(flags);
-  let found = known.get(key);
-  if (!found) {
-    known.set(key, (found = compile(device, label, root, flags)));
-    // A failure is not kept: the next call tries again.
-    found.catch(() => known.delete(key));
-  }
-  return found;
-}
-
-async function compile(
-  device: GPUDevice,
-  label: string,
-  root: WgslModule,
-  flags: Readonly<Record<string, boolean>>,
-): Promise<GPUComputePipeline> {
-  const { module, checked } = beginShaderModule(device, compose([root], { flags }), label);
-  const compute = { module, entryPoint: 'main' };
-  const pipeline = device.createComputePipelineAsync({ label, layout: 'auto', compute });
-  // If the text is invalid, the next line throws.
-  pipeline.catch(() => undefined);
-  await checked;
-  return pipeline;
 }
 
 /**
