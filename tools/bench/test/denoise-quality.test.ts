@@ -20,7 +20,7 @@ describe.skipIf(missing !== undefined)(
   () => {
     // All of it takes half an hour on two cores, the large networks a minute each, and so do the three networks of a row
     // that cleans its guides.
-    const all = Boolean(process.env['GLANZ_FULL']);
+    const all = process.env['GLANZ_FULL'] !== undefined;
     for (const scene of all ? QUALITY_SCENES : ['textured'])
       for (const samples of all ? [1, 4, 16] : [4])
         for (const row of (Object.keys(ROWS) as Row[]).filter((name) => all || name === 'oidn alb_nrm small'))

@@ -6,14 +6,13 @@ import { timed, wallTimes, type Benchmark, type Figure } from '../benchmark';
 import { benchMeshes, partsOf, type BenchMesh } from '../bvh/meshes';
 import { overTinybvh, spreadOf, writeBvhPage, type BvhDetails, type MeshRow } from '../bvh/page';
 import { TINYBVH } from '../bvh/tinybvh';
+import { geometricMean } from '../geometric-mean';
 import { machine } from '../machine';
 import { diffuseRays, primaryRays, shadowRays } from '../bvh/ray-sets';
 import { coldTimes, servesBenchmark, slicedTimes, workerTimes } from '../bvh/threads';
 import { buildThree, threeCost } from '../bvh/three-mesh-bvh';
 import { plainBlas, plainThree, traversalCost, type PlainTree } from '../bvh/traversal-cost';
 
-const geometricMean = (values: readonly number[]) =>
-  Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
 const min = (values: readonly number[]) => Math.min(...values);
 
 /** Meshes of parts, as CAD programs write them. */

@@ -8,9 +8,9 @@ import type { Benchmark, Figure } from '../benchmark';
 import { crossing, type Point } from '../denoise/crossing';
 import { flipOfFiles, serveFlipJobs, writeImage, type FlipJob } from '../denoise/flip-jobs';
 import { PRODUCT_DATA } from '../denoise/product-scenes';
-import { TIME_SCENES, timeScene } from '../denoise/time-scenes';
+import { TIME_SCENES, checkTimeScenes, timeScene } from '../denoise/time-scenes';
 import { packedFolder } from '../equal-time/load';
-import { geometricMean } from '../loading/report';
+import { geometricMean } from '../geometric-mean';
 
 const WEIGHTS = 'packages/denoise-weights/weights';
 const QUALITIES = ['fast', 'balanced'] as const;
@@ -72,6 +72,7 @@ export const benchmark: Benchmark = {
     serveFlipJobs();
     const started = performance.now();
     const scenes = values['scenes']?.split(';') ?? TIME_SCENES.slice(0, quick ? 1 : undefined);
+    checkTimeScenes(scenes);
     const { gpu, adapterName, software } = await createGpu({
       ...(name ? { gpu: name } : {}),
       ...(values['toggles'] === undefined ? {} : { toggles: values['toggles'].split(',') }),
@@ -152,6 +153,8 @@ export const benchmark: Benchmark = {
           `${scene}: reference of ${referenceSamples} samples; ${(last.milliseconds / last.samples).toFixed(2)} ms a sample`,
         );
         compared = rowsOf(scene, made, { reference, width, height }, log).then((found) => void rows.push(...found));
+        // An error is thrown where this is awaited; without a handler until then, Node would end.
+        compared.catch(() => {});
       }
       for (const [, denoiser] of denoisers) denoiser.destroy();
       device.destroy();
@@ -166,6 +169,8 @@ export const benchmark: Benchmark = {
         details: rows,
       };
     } finally {
+      // Processes that compare images still read them.
+      await compared.catch(() => {});
       rmSync(folder, { recursive: true, force: true });
     }
   },

@@ -1,11 +1,11 @@
 import { timed, type Benchmark, type Figure } from '../benchmark';
 import { BenchError } from '../error';
 import { packedBrowser } from '../browser/chromium';
+import { geometricMean } from '../geometric-mean';
 import { openPage } from '../loading/chromium';
 import { CONTESTANTS, loadModels, type Contestant, type Load, type LoadModel } from '../loading/models';
 import { profileLoads } from '../loading/profile';
 import {
-  geometricMean,
   PLACES,
   speedUp,
   writeLoadingPage,

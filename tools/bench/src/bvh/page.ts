@@ -1,6 +1,6 @@
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { geometricMean } from '../loading/report';
+import { geometricMean } from '../geometric-mean';
 import { TINYBVH } from './tinybvh';
 
 /** Minimum, median and maximum of repeated times, milliseconds. */

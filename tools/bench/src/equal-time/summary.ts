@@ -1,4 +1,5 @@
 import { BenchError } from '../error';
+import { geometricMean } from '../geometric-mean';
 import type { ContestantName } from './contestants';
 import type { Measurement, Point } from './measure';
 import type { CrossCheck } from './reference';
@@ -52,8 +53,6 @@ export type Quantity = 'relMSE' | 'noise' | 'FLIP';
 /** Below this share of the reference's own noise, an error cannot be distinguished from none. */
 const RESOLUTION = 0.05;
 
-export const geometricMean = (values: readonly number[]) =>
-  Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
 const mean = (values: readonly number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;
 
 export function measurementOf(

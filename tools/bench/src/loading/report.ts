@@ -1,5 +1,6 @@
 import { mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { geometricMean } from '../geometric-mean';
 import { CONTESTANTS, type Contestant } from './models';
 import { WORK, type Shares, type Work } from './profile';
 
@@ -50,9 +51,6 @@ export interface LoadingReport {
   };
   readonly details: LoadingDetails;
 }
-
-export const geometricMean = (values: readonly number[]): number =>
-  Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
 
 /** Ratio of three.js's median time to the contestant's, geometric mean over the models. */
 export function speedUp(

@@ -1,13 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import {
-  fairQuantity,
-  geometricMean,
-  joinDetails,
-  overall,
-  ratios,
-  valueAfter,
-  valueAt,
-} from '../../src/equal-time/summary';
+import { fairQuantity, joinDetails, overall, ratios, valueAfter, valueAt } from '../../src/equal-time/summary';
+import { geometricMean } from '../../src/geometric-mean';
 import { DETAILS, measurement } from './details';
 
 const PEER = 'three-gpu-pathtracer';
