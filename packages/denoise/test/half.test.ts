@@ -40,7 +40,9 @@ describe('half precision of the device against the oracle', async () => {
   const offered = device.features.has('shader-f16');
   const why = offered ? '' : ': the GPU has no shader-f16';
   // Compiling takes longest: the small networks, with GLANZ_FULL all.
-  for (const oracle of CHECKED_CASES.filter(({ net }) => process.env['GLANZ_FULL'] || /tiny|small/.test(net)))
+  for (const oracle of CHECKED_CASES.filter(
+    ({ net }) => process.env['GLANZ_FULL'] !== undefined || /tiny|small/.test(net),
+  ))
     it.skipIf(!offered)(`${oracle.case}${why}`, async () => {
       const { expected, input, ...images } = imagesOf(oracle);
       const { rgb } = await denoiseOnGpu(weightsOf(oracle.net), images, { input, storage: 'f16' }, device);

@@ -6,11 +6,11 @@ import { CHECKED_CASES, MISSING, differences, imagesOf, tolerances, weightsOf } 
 afterEach(() => expectNoGpuErrors());
 
 describe.each(['f32', 'f16'] as const)('the GPU with %s between layers against the oracle', (storage) => {
-  // Compiling takes longest: the smallest real network in single precision, where it is there, and the tiny one in half;
-  // with GLANZ_FULL all. The twin computes more of them.
+  // Compiling takes longest: the smallest real network in single precision, where it is there, and the tiny one in
+  // half; with GLANZ_FULL all. The twin computes more of them.
   const single = MISSING === undefined ? /small/ : /tiny/;
   const checked = CHECKED_CASES.filter(
-    ({ net }) => process.env['GLANZ_FULL'] || (storage === 'f32' ? single : /tiny/).test(net),
+    ({ net }) => process.env['GLANZ_FULL'] !== undefined || (storage === 'f32' ? single : /tiny/).test(net),
   );
   for (const oracle of checked)
     it(oracle.case, async () => {

@@ -58,7 +58,9 @@ export const ALL_CASES =
 /** Those of {@link ALL_CASES} that are checked: with real weights a sample, unless GLANZ_FULL asks for all. */
 export const CHECKED_CASES = ALL_CASES.filter(
   ({ case: name, net }) =>
-    net === 'tiny' || process.env['GLANZ_FULL'] || /^spheres\.(rt_alb|rt_nrm|rt_hdr_alb_nrm_small)$/.test(name),
+    net === 'tiny' ||
+    process.env['GLANZ_FULL'] !== undefined ||
+    /^spheres\.(rt_alb|rt_nrm|rt_hdr_alb_nrm_small)$/.test(name),
 );
 
 /** The images of a case, RGB without gaps, and what the filter is asked for. */

@@ -58,8 +58,8 @@ const GRAPHS = { plain: PLAIN, large: LARGE, even: EVEN };
 /**
  * An archive of a network with few channels and random weights.
  *
- * @param graph `even` where a test is about something else than layers: as many of them share a program, a compiler on a
- * CPU takes a third of the time.
+ * @param graph `even` where a test is about something else than layers: as many of them share a program, a compiler on
+ *   a CPU takes a third of the time.
  */
 export function randomNetwork(
   channels: 3 | 6 | 9,
