@@ -100,7 +100,7 @@ describe('a coat with a normal of its own', () => {
     { geometry_coat_normal: [0.25881905, 0, 0.96592583] },
     { geometry_coat_normal: [-0.3, 0.4, 0.8660254], geometry_coat_tangent: [0, 1, 0], coat_roughness_anisotropy: 0.6 },
   ];
-  // The second has what the first has; with GLANZ_FULL both.
+  // By default only the second, whose coat is anisotropic besides; with GLANZ_FULL both.
   it.each(TILTS.map((tilt, i) => [i, tilt] as const).slice(process.env['GLANZ_FULL'] === undefined ? 1 : 0))(
     'tilt %i: samples follow their density, and weights are f·cos/pdf',
     (index, tilt) => {

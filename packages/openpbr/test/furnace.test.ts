@@ -42,7 +42,9 @@ const METALS = {
     whiteMetal(p.specular_roughness, p.specular_roughness_anisotropy, wo),
 };
 const DIELECTRICS = { ...AROUND, exact: whiteDielectric };
-/** Rows whose faults others show: an index or an anisotropy between two that are there, and a lobe with more roughness. */
+/**
+ * Rows whose faults others show: an index or an anisotropy between two that are there, and a lobe with more roughness.
+ */
 const BETWEEN = [
   'index 1.2 over rough diffuse',
   'index 1.2 over diffuse',

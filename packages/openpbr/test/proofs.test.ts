@@ -261,7 +261,7 @@ describe('chi-squared of the samples against the density', () => {
     }),
   };
   Object.entries(LOBES).forEach(([name, lobe], index) => {
-    // Lobes alone are in other tests, too, such as sampling.test.ts.
+    // By default one setting a lobe: `everything` has most lobes at once, and it has three, as has glass.
     const settings = size(60, name === 'everything' || name === 'glass' ? 3 : 1);
     it(`${name}: ${settings} settings, significance 0.01 with Šidák's correction (seed ${310 + index})`, () => {
       const next = uniform(310 + index);
