@@ -1,5 +1,5 @@
 // Writes results/openpbr.md and results/openpbr.json from the measurements of the tests:
-//   GLANZ_RESULTS=$PWD/out/openpbr GLANZ_PROOFS=full npx vitest run --project openpbr test/proofs.test.ts
+//   GLANZ_RESULTS=$PWD/out/openpbr GLANZ_FULL=1 npx vitest run --project openpbr test/proofs.test.ts
 //   test/furnace.test.ts test/oracle.test.ts
 //   node apps/docs/scripts/openpbr-results.mjs out/openpbr
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';

@@ -16,7 +16,7 @@ import { bundleProgram } from './program';
 // kill every few seconds, Redis killed and started again.
 const program = fileURLToPath(new URL('../.cache/glanz-farm.mjs', import.meta.url));
 const faultyDawn = fileURLToPath(new URL('faulty-dawn.mjs', import.meta.url));
-const FULL = process.env.GLANZ_FULL === '1';
+const FULL = process.env['GLANZ_FULL'] !== undefined;
 const MINUTES = FULL ? 40 : 6;
 const redisProgram = await findRedis();
 

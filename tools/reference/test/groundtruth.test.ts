@@ -8,8 +8,8 @@ afterEach(expectNoGpuErrors);
 const FULL = process.env['GLANZ_FULL'] !== undefined;
 /**
  * What another case would fail with: a closed furnace is 1 everywhere, which the tests of the renderer compare without
- * a reference (path-tracer.test.ts); all bounces between matt walls are in the box with spheres, direct light in the box with
- * one bounce, and the light of an environment without a sun in the one with a sun.
+ * a reference (path-tracer.test.ts); all bounces between matt walls are in the box with spheres, direct light in
+ * `cornell_diffuse bounce2`, and the light of an environment without a sun in the one with a sun.
  */
 const COVERED = ['furnace_closed full', 'cornell_diffuse full', 'cornell_diffuse direct', 'env_soft full'];
 const cases: readonly GroundTruthCase[] = !FULL

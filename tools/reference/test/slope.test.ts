@@ -14,9 +14,9 @@ describe('convergenceSlope', () => {
 
 describe('measureConvergence', () => {
   // 128 × 128 pixels and two runs: the slope's own error is about 0.012 for four numbers of samples of the box, 0.013
-  // for three of the textured plane, whose paths are short (0.018 between ten seeds). Without GLANZ_FULL the ground truth
-  // (groundtruth.test.ts) notices a bias, and samples that repeat, by the noise that they leave.
-  it.runIf(process.env['GLANZ_FULL']).each([
+  // for three of the textured plane, whose paths are short (0.018 between ten seeds). Without GLANZ_FULL the ground
+  // truth (groundtruth.test.ts) notices a bias, and samples that repeat, by the noise that they leave.
+  it.runIf(process.env['GLANZ_FULL'] !== undefined).each([
     ['textured', [2, 4, 8]],
     ['cornell_diffuse', [2, 4, 8, 16, 32]],
   ] as const)(

@@ -83,7 +83,7 @@ describe('interiors', () => {
   });
 
   it('that scatter without absorbing vanish in even light', async () => {
-    for (const anisotropy of process.env['GLANZ_FULL'] ? [0, 0.8, -0.5] : [0.8, -0.5]) {
+    for (const anisotropy of process.env['GLANZ_FULL'] === undefined ? [0.8, -0.5] : [0, 0.8, -0.5]) {
       const scene = surrounded([1, 0.5, 0.25]);
       addSphere(scene, 0.8, [0, 0, 0], matter([0, 0, 0], [1, 2, 5], anisotropy));
       const seen = meanOf(await image(scene, 128, { maxDepth: 256 }), SIZE, 0, 0, SIZE, SIZE);
