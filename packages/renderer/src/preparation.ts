@@ -11,6 +11,7 @@ import { aovBuffers, aovFlags } from './film/aovs';
 import { Film } from './film/film';
 import type { CompactShapes } from './geometry/compact-shapes';
 import { chooseCompact } from './geometry/choose-compact';
+import { panesOf } from './materials/panes';
 import { expectedShapes, prepareGeometry, shapeBytes, type Geometry } from './geometry/geometry';
 import type { HierarchyOptions } from './geometry/hierarchies';
 import { isShown } from './geometry/placement';
@@ -83,6 +84,9 @@ export interface PreparationInput {
   readonly isLate: () => boolean;
 }
 
+/** Whether light by way of panes is guided; a guide that is trained replaces that. */
+const hasPanes = (scene: Scene, { guiding }: TracerSettings) => !guiding && panesOf(scene).length > 0;
+
 /** What decides the kernels' text: the scene's features, the camera and the options. */
 export function kernelFeatures(features: KernelFeatures, camera: Camera, options: TracerSettings): KernelFeatures {
   return {
@@ -92,7 +96,7 @@ export function kernelFeatures(features: KernelFeatures, camera: Camera, options
       ...viewFlags(camera, options.filter),
       ...biasedFlags(options),
       ...aovFlags(options.aovs),
-      GUIDE: options.guiding > 0,
+      GUIDE: options.guiding > 0 || features.flags.PANES === true,
       SHADOW_SOFTNESS: features.flags.CATCHER === true && options.shadowSoftness > 0,
     },
   };
@@ -149,7 +153,8 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
     needs: ['scene', 'camera', 'pages'],
     place: 'foreground',
     async run({ scene, camera, pages }, { signal }) {
-      const layout = (of: Scene) => texturePlan(device, of, { ...options, pages });
+      const panes = hasPanes(scene, options);
+      const layout = (of: Scene) => texturePlan(device, of, { ...options, pages, panes });
       const textures = new TextureFit({ device, scene, camera, options, layout, signal });
       await textures.fit();
       return textures;
@@ -160,7 +165,11 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
     needs: ['scene', 'camera', 'compact', 'pages', 'textures'],
     place: 'foreground',
     run: ({ scene, camera, compact, pages }) =>
-      kernelFeatures(expectedFeatures(device, scene, { ...options, compact, pages }), camera, options),
+      kernelFeatures(
+        expectedFeatures(device, scene, { ...options, compact, pages, panes: hasPanes(scene, options) }),
+        camera,
+        options,
+      ),
   }),
   stage({
     name: 'request',
@@ -196,7 +205,7 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
       async run({ scene, geometry, textures }, { signal }) {
         onProgress?.({ stage: 'upload', done: 0 });
         const pages = await choosePages(device, shapeBytes(scene, geometry));
-        const choices = { ...options, pages, compact: geometry.compact };
+        const choices = { ...options, pages, compact: geometry.compact, panes: hasPanes(scene, options) };
         const make = () => memory.track(() => new GpuScene(device, memory, scene, geometry, choices));
         let shapes: GpuScene | undefined;
         while (!shapes) {
@@ -278,8 +287,15 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
       needs: ['scene', 'geometry', 'gpuScene', 'features', 'camera'],
       place: 'elsewhere',
       async run(products, { signal }) {
-        if (!options.guiding) return;
-        const { trainGuide } = await loadPart('guide-training', import('./session/guide-training'));
+        const { scene, gpuScene } = products;
+        const panes = hasPanes(scene, options);
+        if (!options.guiding && !panes) return;
+        const { paneTable, trainGuide } = await loadPart('guide-training', import('./session/guide-training'));
+        if (panes) {
+          const { table, width } = paneTable(scene, panesOf(scene), gpuScene.environment);
+          await withErrorScopes(device, 'the guide', () => gpuScene.setGuide(table, width));
+          return;
+        }
         const source = { ...products, device, cache, options, signal };
         const tools = [Integrator, GpuMemory, isShown, packFrame, parametersOf, readFloats, withErrorScopes] as const;
         await trainGuide(source, tools);

@@ -34,6 +34,8 @@ export interface SceneChoices {
   readonly backFaceCulling: BackFaceCulling;
   /** Paths that a guide learns from, in millions; 0: there is none. */
   readonly guiding: number;
+  /** Whether light by way of panes is guided, see {@link hasPanes}. Decided once: edits do not change it. */
+  readonly panes?: boolean;
   /** Holds the arrays of shapes that are too large for buffers. */
   readonly pages?: Pages | undefined;
   /** Writes the shapes, where they are compact. */
@@ -108,6 +110,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
       CATCHER: facts.catchers,
       LIGHT_GROUPS: choices.lightGroups !== 'off',
       NEXT_EVENT: lights || environmentSampled,
+      PANES: choices.panes === true && environmentSampled,
       ...interiorFlags(scene.materials),
       TERMINATOR_LIFT:
         choices.shadowTerminator === 'smooth' && scene.meshes.some(({ normals }) => normals !== undefined),
@@ -131,12 +134,15 @@ const OWN_TEXTURES = 4;
 export function texturePlan(
   device: GPUDevice,
   scene: Scene,
-  { guiding, pages }: Pick<SceneChoices, 'guiding' | 'pages'>,
+  { guiding, panes, pages }: Pick<SceneChoices, 'guiding' | 'panes' | 'pages'>,
 ): TexturePlan {
   return planTextures(
     scene,
     usedTextures(scene.materials),
-    device.limits.maxSampledTexturesPerShaderStage - OWN_TEXTURES - (guiding > 0 ? 1 : 0) - (pages?.names.length ?? 0),
+    device.limits.maxSampledTexturesPerShaderStage -
+      OWN_TEXTURES -
+      (guiding > 0 || panes ? 1 : 0) -
+      (pages?.names.length ?? 0),
     device.limits,
     compressedFormats(device),
   );
