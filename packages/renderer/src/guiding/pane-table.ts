@@ -131,13 +131,13 @@ function brightness({ table, rotation }: Pick<EnvironmentData, 'table' | 'rotati
     }
   }
   // Of an evenly bright sphere the radiance is π / 2 times the mean density.
-  const least = (((2 * mean) / Math.PI) ** 2 * (width * height)) / cells.length;
+  const threshold = (((2 * mean) / Math.PI) ** 2 * (width * height)) / cells.length;
   const dilated = cells.map((_, i) => {
     let highest = 0;
     for (let y = Math.max(0, Math.floor(i / columns) - 1); y < Math.min(rows, Math.floor(i / columns) + 2); y++)
       for (let x = -1; x <= 1; x++)
         highest = Math.max(highest, cells[y * columns + ((i + x + columns) % columns)] as number);
-    return highest > least ? highest : 0;
+    return highest > threshold ? highest : 0;
   });
   const [cosine, sine] = rotation;
   return ([x, y, z]) => {
