@@ -1,4 +1,4 @@
-import type { Instance, Scene } from '@glanz/scene';
+import type { Instance, Material, Scene } from '@glanz/scene';
 import { transmitsByDelta } from './interiors';
 import { parametersOf } from './parameters';
 
@@ -9,11 +9,10 @@ const MAX_ROUGHNESS = 0.2;
  * The instances of panes: thin walls that let light through nearly straight, but not exactly, so that light samples do
  * not pass them.
  */
-export function panesOf({ instances, materials }: Scene): Instance[] {
-  const panes = materials.map((material) => {
-    const p = parametersOf(material);
-    const clear = p.geometry_thin_walled && p.transmission_weight > 0;
-    return clear && p.specular_roughness <= MAX_ROUGHNESS && !transmitsByDelta(material);
+export const panesOf = ({ instances, materials }: Scene): Instance[] =>
+  instances.filter(({ material: index }) => {
+    const material = materials[index] as Material;
+    const { geometry_thin_walled, transmission_weight, specular_roughness } = parametersOf(material);
+    const clear = geometry_thin_walled && transmission_weight > 0 && specular_roughness <= MAX_ROUGHNESS;
+    return clear && !transmitsByDelta(material);
   });
-  return instances.filter(({ material }) => panes[material]);
-}
