@@ -290,9 +290,10 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
         const { scene, gpuScene } = products;
         const panes = hasPanes(scene, options);
         if (!options.guiding && !panes) return;
-        const { paneTable, trainGuide } = await loadPart('guide-training', import('./session/guide-training'));
+        const { paneTableSteps, trainGuide } = await loadPart('guide-training', import('./session/guide-training'));
         if (panes) {
-          const { table, width } = paneTable(scene, panesOf(scene), gpuScene.environment);
+          const steps = paneTableSteps(scene, panesOf(scene), gpuScene.environment);
+          const { table, width } = await inSlices(steps, { signal });
           await withErrorScopes(device, 'the guide', () => gpuScene.setGuide(table, width));
           return;
         }

@@ -11,6 +11,10 @@ const MIN_AREA = 0.2;
 /** Slopes of the normals that a light is reflected by: of a plane, and those that a normal map adds. */
 const SLOPES = [0, 0.01, 0.02] as const;
 const MAPPED_SLOPES = [0.03, 0.04, 0.06, 0.08] as const;
+/** Bins, triangles and texels of a step. */
+const BINS = 64;
+const TRIANGLES = 1 << 13;
+const TEXELS = 1 << 15;
 /** Normals of each slope. */
 const AROUND = 8;
 
@@ -29,26 +33,28 @@ const cross = (a: Vector, b: Vector): Vector => [
  * light that comes from it, if it is a pane all over.
  *
  * @param panes Instances of thin walls. Flat ones count; others are left to the surfaces' own samples.
- * @returns The numbers of guide.wesl for one leaf, in rows of `width`.
+ * @returns The numbers of guide.wesl for one leaf, in rows of `width`; in steps of about a millisecond.
  */
-export function paneTable(
+export function* paneTableSteps(
   scene: Pick<Scene, 'meshes' | 'materials'>,
   panes: readonly Instance[],
   environment: Pick<EnvironmentData, 'table' | 'rotation'>,
-): { readonly table: Float32Array<ArrayBuffer>; readonly width: number } {
+): Generator<void, { readonly table: Float32Array<ArrayBuffer>; readonly width: number }> {
   const table = new Float32Array(GUIDE_WIDTH * Math.ceil((2 + GUIDE_BINS) / GUIDE_WIDTH));
   table[0] = 1;
   const mapped = panes.some(({ material }) => (scene.materials[material] as Material).textures?.geometry_normal);
   const slopes = mapped ? [...SLOPES, ...MAPPED_SLOPES] : SLOPES;
-  const normals = planesOf(scene, panes).flatMap((plane) => tilted(plane, slopes));
-  const bright = brightness(environment);
-  const moments = Float64Array.from({ length: GUIDE_BINS }, (_, bin) => {
+  const normals = (yield* planesOf(scene, panes)).flatMap((plane) => tilted(plane, slopes));
+  const bright = yield* brightness(environment);
+  const moments = new Float64Array(GUIDE_BINS);
+  for (let bin = 0; bin < GUIDE_BINS; bin++) {
+    if (bin % BINS === 0) yield;
     const from = middleOf(bin);
-    return normals.reduce((sum, normal) => {
+    for (const normal of normals) {
       const k = 2 * dot(from, normal);
-      return sum + bright([from[0] - k * normal[0], from[1] - k * normal[1], from[2] - k * normal[2]]);
-    }, 0);
-  });
+      moments[bin]! += bright([from[0] - k * normal[0], from[1] - k * normal[1], from[2] - k * normal[2]]);
+    }
+  }
   const total = moments.reduce((sum, moment) => sum + Math.sqrt(moment), 0);
   let below = 0;
   moments.forEach((moment, bin) => {
@@ -67,12 +73,13 @@ function middleOf(bin: number): Vector {
 }
 
 /** Normals of the planes that most of the panes lie in. */
-function planesOf({ meshes }: Pick<Scene, 'meshes'>, panes: readonly Instance[]): Vector[] {
+function* planesOf({ meshes }: Pick<Scene, 'meshes'>, panes: readonly Instance[]): Generator<void, Vector[]> {
   const planes: { readonly normal: Vector; area: number }[] = [];
   let total = 0;
   for (const { mesh, transform: m } of panes) {
     const { positions, indices } = meshes[mesh] as Mesh;
     for (let t = 0; t + 2 < indices.length; t += 3) {
+      if (t % (3 * TRIANGLES) === 0) yield;
       const [a, b, c] = [0, 1, 2].map((k) => 3 * (indices[t + k] as number)) as [number, number, number];
       const edge = (to: number): Vector => {
         const [x, y, z] = [0, 1, 2].map((r) => positions[to + r]! - positions[a + r]!) as [number, number, number];
@@ -114,13 +121,18 @@ function tilted(normal: Vector, slopes: readonly number[]): Vector[] {
  * The squared radiance of the environment in a direction, up to a factor: the highest of the cell there and those
  * around it, since it is interpolated; 0 below the square of the mean.
  */
-function brightness({ table, rotation }: Pick<EnvironmentData, 'table' | 'rotation'>): (towards: Vector) => number {
+function* brightness({
+  table,
+  rotation,
+}: Pick<EnvironmentData, 'table' | 'rotation'>): Generator<void, (towards: Vector) => number> {
   if (!table) return () => 0;
   const { width, height, data } = table;
   const [columns, rows] = [Math.min(CELLS, width), Math.min(CELLS / 2, height)];
   const cells = new Float64Array(columns * rows);
   let mean = 0;
+  const rowsOfStep = Math.ceil(TEXELS / width);
   for (let y = 0; y < height; y++) {
+    if (y % rowsOfStep === 0) yield;
     // The density over the unit square is that of the sphere times the sine.
     const sine = Math.sin(((y + 0.5) / height) * Math.PI);
     const row = Math.floor((y * rows) / height) * columns;

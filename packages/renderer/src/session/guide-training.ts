@@ -16,7 +16,7 @@ import type { GpuMemory } from '../storage/buffers';
 import type { readFloats } from '../storage/read-buffer';
 import type { packFrame } from './frame';
 
-export { paneTable } from '../guiding/pane-table';
+export { paneTableSteps } from '../guiding/pane-table';
 
 /** What {@link trainGuide} works with. */
 export interface GuideSource {

@@ -1,7 +1,8 @@
+import { finish } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
 import { prepareEnvironment } from '../../src/environment/environment';
 import { GUIDE_BINS, GUIDE_COLUMNS, GUIDE_ROWS } from '../../src/guiding/pane_constants.wesl';
-import { paneTable } from '../../src/guiding/pane-table';
+import { paneTableSteps } from '../../src/guiding/pane-table';
 import { panesOf } from '../../src/materials/panes';
 import { addQuad, addSphere, createScene } from '../scenes';
 
@@ -19,7 +20,7 @@ function environment(x: number, y: number, rotation = 0) {
 
 /** The probability of each bin. */
 function chances(scene = createScene(), light = environment(0, 0)): number[] {
-  const { table } = paneTable(scene, panesOf(scene), light);
+  const { table } = finish(paneTableSteps(scene, panesOf(scene), light));
   return Array.from({ length: GUIDE_BINS }, (_, bin) => table[2 + bin]! - (bin > 0 ? table[1 + bin]! : 0));
 }
 
@@ -30,7 +31,7 @@ function middleOf(bin: number): readonly [number, number, number] {
   return [x, Math.sqrt(1 - x * x) * Math.cos(around), Math.sqrt(1 - x * x) * Math.sin(around)];
 }
 
-describe('paneTable', () => {
+describe('paneTableSteps', () => {
   it('chooses directions in which a plane mirrors a bright light', () => {
     const scene = createScene();
     addQuad(scene, 1, 0, pane);
