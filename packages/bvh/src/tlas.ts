@@ -14,7 +14,8 @@ export interface Tlas {
    */
   readonly instanceOrder: Uint32Array<ArrayBuffer>;
   /**
-   * 12 numbers an instance given: the rows of the 3×4 matrix from world to object space; NaN where it does not exist.
+   * 12 numbers an instance given: the rows of the 3×4 matrix from world to object space. Those of instances that are
+   * left out are undefined.
    */
   readonly toObject: Float64Array<ArrayBuffer>;
   /** Box of everything, in the world. */

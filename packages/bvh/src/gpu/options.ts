@@ -37,8 +37,9 @@ export interface GpuBlasOptions extends GpuBuildOptions {
 
 /** Milliseconds of GPU time, as far as timestamps tell. */
 export interface GpuBuildTimes {
-  /** Boxes, pairs, Morton codes. */
+  /** Boxes, pairs, and the lower half of each Morton code. */
   readonly primitives: number;
+  /** Sorts by the lower halves, computes the upper ones, and sorts by those. */
   readonly sort: number;
   readonly cluster: number;
   /** Nodes and leaves in their order. */
