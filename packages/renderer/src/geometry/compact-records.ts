@@ -9,9 +9,9 @@ import records from './compact_records.wesl';
 import { pipelineFor } from './pipeline-for';
 
 /** Bytes of a record of compact shapes. */
-const RECORD_BYTES = 16;
-/** Records that are made at once, 32 MiB. */
-const RECORDS = 1 << 21;
+export const RECORD_BYTES = 16;
+/** Records that are made at once, 4 MiB. */
+const RECORDS = 1 << 18;
 /** Threads of a workgroup of compact_records.wesl. */
 const GROUP = 64;
 
@@ -29,8 +29,12 @@ export const recordsPipeline = (device: GPUDevice): Promise<GPUComputePipeline> 
   pipelineFor(device, 'glanz compact records', records);
 
 /**
- * Records what writes the triangles of compact shapes where the hierarchy is on the GPU: as `COMPACT_SHAPES.slices` does
- * on the CPU, whose loads from millions of places take as long as the rest of a load.
+ * Records commands that write the triangles of compact shapes where the hierarchy is on the GPU.
+ * `COMPACT_SHAPES.slices` writes the same on the CPU, where reading the indices of 10 million triangles in the order of
+ * a hierarchy takes as long as everything else before the first sample.
+ *
+ * Memory: `order` and `indices` take 16 bytes a triangle from the build of a mesh until its records are made; the
+ * records take up to 4 MiB more, until they are copied.
  *
  * @param copy Records a copy of so many bytes to the mesh's region, `offset` bytes from its first triangle.
  * @param atOnce Records that are made before they are copied, a multiple of 64.

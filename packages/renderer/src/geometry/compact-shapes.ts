@@ -4,7 +4,7 @@ import type { Mesh } from '@glanz/scene';
 import type { ShapeSlice } from '../storage/shape-arrays';
 import type { Hierarchy, MeshRegion } from './hierarchy';
 
-/** Bytes of a record or a vertex in the array of triangles. */
+/** Bytes of a record or a vertex in the array of triangles, as in `compact-records.ts`. */
 const RECORD_BYTES = 16;
 
 /** Records and vertices that are written at once: a millisecond or two of work. */
@@ -53,7 +53,7 @@ function* tangentSlices(offset: number, tangents: Float32Array): Generator<Shape
   }
 }
 
-/** Records of triangles and vertices of a mesh. Where its hierarchy is on the GPU, those of triangles are made there. */
+/** Records of a mesh's triangles and vertices. Where its hierarchy is on the GPU, those of triangles are made there. */
 function* slices(
   { positions, indices, normals }: Mesh,
   { triangleIndices, nodes }: Pick<Hierarchy, 'triangleIndices' | 'nodes'>,

@@ -6,17 +6,16 @@ import { DeviceError } from '../errors';
 import { GPU_BUFFER_COPY_DST, GPU_BUFFER_COPY_SRC, GPU_BUFFER_STORAGE, type PagedArray } from '../storage/buffers';
 import { readBuffer } from '../storage/read-buffer';
 import { uploadPace } from '../storage/upload-pace';
-import { encodeRecords, recordsPipeline } from './compact-records';
+import { encodeRecords, RECORD_BYTES, recordsPipeline } from './compact-records';
 import type { CompactShapes } from './compact-shapes';
 import type { GpuBuilds, Hierarchy, HierarchyOnGpu, MeshRegion } from './hierarchy';
 
 // In the same chunk: what poses rigs shares the most with it.
 export { discardPoser, poseOnGpu } from './pose/pose-mesh';
 
-/** Bytes of a node, of a packed triangle, of a record of compact shapes, and of a word of the attributes. */
+/** Bytes of a node, of a packed triangle, and of a word of the attributes. */
 const NODE_BYTES = 64;
 const TRIANGLE_BYTES = 48;
-const RECORD_BYTES = 16;
 const WORD_BYTES = 4;
 
 /** Meshes that are uploaded or built at the same time: the GPU builds one while the next is written. */
@@ -26,7 +25,7 @@ const LANES = 3;
 const SLICE_BYTES = 1 << 20;
 
 /** Errors of a GPU that cannot build a mesh which the CPU can. */
-const CPU_CAN = /^(bvh\/(limit|memory|pipeline|too-many)|renderer\/(limit|out-of-memory))$/;
+const CPU_CAN = /^(bvh\/(limit|memory|pipeline|too-many)|renderer\/(limit|out-of-memory)|wgsl\/compile)$/;
 
 const cpuCan = (error: unknown) => CPU_CAN.test(String((error as { readonly code?: unknown }).code));
 
@@ -75,10 +74,15 @@ export async function buildOnGpu(
   const pace = uploadPace(device);
   let [done, temporaryBytes] = [0, 0];
   let failed = false;
+  // A compiler's error may come from the loss of the device, where the CPU's trees are of no use.
+  const orLoss = <T>(made: Promise<T>) =>
+    made.catch(async (error: unknown): Promise<T> => {
+      throw await lossOr(device, error as DeviceError);
+    });
   // Compiled while the first mesh is written.
-  const creating = gpuBuilder(device);
+  const creating = orLoss(gpuBuilder(device));
   creating.catch(() => {});
-  const compiling = compact && recordsPipeline(device);
+  const compiling = compact && orLoss(recordsPipeline(device));
   compiling?.catch(() => {});
 
   const upload = async (label: string, data: Float32Array | Uint32Array): Promise<GPUBuffer> => {
@@ -110,7 +114,7 @@ export async function buildOnGpu(
       own.push(positions);
       const indices = await upload('build indices', mesh.indices);
       own.push(indices);
-      const builder = await creating;
+      const [builder, records] = await Promise.all([creating, compiling]);
       const built = await builder.buildBlas(
         {
           positions,
@@ -128,8 +132,6 @@ export async function buildOnGpu(
       }
       // Lights name stored triangles, and queries on the CPU ask for them.
       const triangleIndices = new Uint32Array(await readBuffer(device, order, order.size)).subarray(0, triangleCount);
-      signal.throwIfAborted();
-      const records = await compiling;
       signal.throwIfAborted();
       memory.release(positions);
       if (triangles) memory.release(order);

@@ -27,7 +27,8 @@ export interface Hierarchy extends Omit<Blas, 'nodes'> {
 /** What only the GPU has of a mesh's hierarchy. */
 export interface HierarchyOnGpu {
   /**
-   * Copies nodes, triangles and indices to the mesh's region, and frees the buffers that they were built in.
+   * Copies nodes, triangles and indices to the mesh's region, and frees the buffers that they were built in. Of compact
+   * shapes it writes records of triangles in place of triangles and indices.
    * @param arrayOf Finds the scene's arrays.
    */
   place(arrayOf: (name: ShapeArray) => GPUBuffer | PagedArray, region: MeshRegion): void;
@@ -46,7 +47,10 @@ export interface HierarchyBuild {
   readonly triangles: number;
   /** Time from the request until the last one is built. CPU and GPU build at the same time. */
   readonly ms: number;
-  /** Maximum temporary GPU memory of a build; freed when all are built. */
+  /**
+   * Maximum temporary GPU memory of a build besides its mesh and its result; freed when all are built. Copies of the
+   * results are made in the scene's arrays after that, mesh by mesh, and are not counted.
+   */
   readonly temporaryBytes: number;
 }
 

@@ -1,6 +1,6 @@
 import { compose } from '@glanz/wgsl/compose';
 import type { WgslModule } from '@glanz/wgsl/module';
-import { beginShaderModule } from '@glanz/wgsl/shader';
+import { beginShaderModule, ShaderError } from '@glanz/wgsl/shader';
 
 /** Compiled shaders, by device and name. */
 const pipelines = /* @__PURE__ */ new WeakMap<GPUDevice, Map<string, Promise<GPUComputePipeline>>>();
@@ -8,7 +8,7 @@ const pipelines = /* @__PURE__ */ new WeakMap<GPUDevice, Map<string, Promise<GPU
 /**
  * The pipeline of a module with the entry point `main`, compiled once a device.
  *
- * @throws {ShaderError} as `beginShaderModule` does.
+ * @throws {ShaderError} `wgsl/compile`, also where the text is valid and the driver makes no pipeline of it.
  */
 export function pipelineFor(
   device: GPUDevice,
@@ -40,5 +40,10 @@ async function compile(
   // If the text is invalid, the next line throws.
   pipeline.catch(() => undefined);
   await checked;
-  return pipeline;
+  try {
+    return await pipeline;
+  } catch (cause) {
+    const { message } = cause as Error;
+    throw new ShaderError('wgsl/compile', `The GPU refused the kernel "${label}": ${message}`, { cause });
+  }
 }

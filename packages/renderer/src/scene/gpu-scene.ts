@@ -322,9 +322,13 @@ export class GpuScene {
 
   *#shapeParts(): Generator<number> {
     this.#geometry.placement.takeChangedNodes();
-    this.#geometry.blas.forEach((tree, i) =>
-      tree?.gpu?.place((name) => this.shapes(name), this.#geometry.regions[i] as MeshRegion),
-    );
+    for (const [i, tree] of this.#geometry.blas.entries()) {
+      if (!tree?.gpu) continue;
+      const region = this.#geometry.regions[i] as MeshRegion;
+      tree.gpu.place((name) => this.shapes(name), region);
+      // What a mesh was built in is freed before the one after the next is placed.
+      yield 64 * region.nodes;
+    }
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
       this.#resources.write(buffer, data, offset);
       yield data.byteLength;

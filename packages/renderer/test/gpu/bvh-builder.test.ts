@@ -1,9 +1,12 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Mesh, Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { COMPACT_SHAPES } from '../../src/geometry/compact-shapes';
 import { prepareGeometry } from '../../src/geometry/geometry';
-import { buildsOnGpu, gpuBuilds, suitsGpu } from '../../src/geometry/hierarchy';
-import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { buildOnGpu } from '../../src/geometry/gpu-trees';
+import { buildsOnGpu, gpuBuilds, suitsGpu, type GpuBuilds } from '../../src/geometry/hierarchy';
+import { PathTracer, requestDevice, type PathTracerOptions } from '../../src/index';
+import { createGpu } from '../../src/node';
 import { GpuMemory } from '../../src/storage/buffers';
 import { addBox, addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 import { losingDevice } from '../losing-device';
@@ -17,11 +20,15 @@ afterEach(() => expectNoGpuErrors());
 const options: PathTracerOptions = { width: 24, height: 24, camera, pathsInFlight: 1 << 12, maxDepth: 4 };
 const moved = (x: number, y: number, z: number) => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1];
 
+/** Shapes of more than a MiB are compact, such as those of a stage with a ball of as many segments. */
+const COMPACT: PathTracerOptions = { ...options, bvhBuilder: 'gpu', memory: { compactAboveMiB: 1 } };
+const COMPACT_SEGMENTS = 140;
+
 /** A smooth ball, a box with texture coordinates of its own, a floor and a glowing square of many triangles. */
-function stage(): Scene {
+function stage(segments = 32): Scene {
   const scene = createScene();
   addQuad(scene, 0.9, -0.2, lambert(0.6, 0.5, 0.4));
-  addSphere(scene, 0.3, [-0.3, 0, 0.2], { name: 'ball', parameters: { specular_roughness: 0.3 } }, 32);
+  addSphere(scene, 0.3, [-0.3, 0, 0.2], { name: 'ball', parameters: { specular_roughness: 0.3 } }, segments);
   addBox(scene, [0.2, -0.2, 0], [0.5, 0.2, 0.4], { ...lambert(0.3, 0.4, 0.6), name: 'box' });
   addSphere(
     scene,
@@ -99,12 +106,21 @@ describe('hierarchies built on the GPU', () => {
     other.destroy();
   });
 
-  it('leave no buffer behind', async () => {
-    const { device: counted, live } = watched();
-    const tracer = await PathTracer.create(counted, stage(), { ...options, bvhBuilder: 'gpu' });
-    expect([...live.values()].filter((label) => /bvh|build/.test(label))).toEqual([]);
-    tracer.destroy();
-    expect([...live.values()]).toEqual([]);
+  it('leave no buffer behind, with compact shapes too', async () => {
+    for (const given of [{ ...options, bvhBuilder: 'gpu' } as const, COMPACT]) {
+      const made = new Set<string>();
+      const { device: counted, live } = watched((target) => ({
+        createBuffer: (descriptor: GPUBufferDescriptor) => {
+          made.add(descriptor.label ?? '');
+          return target.createBuffer(descriptor);
+        },
+      }));
+      const tracer = await PathTracer.create(counted, stage(given === COMPACT ? COMPACT_SEGMENTS : 32), given);
+      expect(made.has('glanz compact records')).toBe(given === COMPACT);
+      expect([...live.values()].filter((label) => /bvh|build|compact records/.test(label))).toEqual([]);
+      tracer.destroy();
+      expect([...live.values()]).toEqual([]);
+    }
   });
 
   it('are there for picking', async () => {
@@ -164,6 +180,7 @@ describe('hierarchies built on the GPU', () => {
       'bvh primitives',
       'bvh triangles',
       'bvh nodes',
+      'glanz compact records',
     ]) {
       const control = new AbortController();
       const reason = new Error(`stopped at ${stop}`);
@@ -173,7 +190,11 @@ describe('hierarchies built on the GPU', () => {
           return target.createBuffer(descriptor);
         },
       }));
-      const making = PathTracer.create(counted, stage(), { ...options, bvhBuilder: 'gpu', signal: control.signal });
+      const [scene, given] =
+        stop === 'glanz compact records'
+          ? [stage(COMPACT_SEGMENTS), COMPACT]
+          : [stage(), { ...options, bvhBuilder: 'gpu' as const }];
+      const making = PathTracer.create(counted, scene, { ...given, signal: control.signal });
       await expect(making).rejects.toBe(reason);
       // Builds under way are not waited for.
       await expect.poll(() => [...live.values()]).toEqual([]);
@@ -215,6 +236,55 @@ describe('hierarchies built on the GPU', () => {
       tracer.destroy();
       expect([...live.values()]).toEqual([]);
     }
+  });
+
+  it('are built on the CPU where the GPU refuses what writes compact shapes', async () => {
+    const scene = stage(COMPACT_SEGMENTS);
+    const expected = await fresh(scene, 'cpu', COMPACT);
+    const refuse = (invalid: boolean) =>
+      watched((target) => ({
+        createShaderModule: (descriptor: GPUShaderModuleDescriptor) =>
+          target.createShaderModule(
+            invalid && descriptor.label === 'glanz compact records' ? { ...descriptor, code: 'fn main(' } : descriptor,
+          ),
+        createComputePipelineAsync: (descriptor: GPUComputePipelineDescriptor) =>
+          descriptor.label === 'glanz compact records'
+            ? Promise.reject(new Error('no compiler'))
+            : target.createComputePipelineAsync(descriptor),
+      }));
+    for (const { device: poor, live } of [refuse(false), refuse(true)]) {
+      const tracer = await PathTracer.create(poor, scene, COMPACT);
+      expect(tracer.statistics.builds.map(({ where, meshes }) => [where, meshes])).toEqual([['cpu', 4]]);
+      expect(await beauty(tracer)).toEqual(expected);
+      tracer.destroy();
+      expect([...live.values()]).toEqual([]);
+    }
+  });
+
+  it('report a device that is lost while what writes compact shapes compiles', async () => {
+    const { gpu } = await createGpu({ software: 'only' });
+    const own = await requestDevice({ gpu });
+    const losing = new Proxy(own, {
+      get: (target, name) => {
+        const value = Reflect.get(target, name) as unknown;
+        if (name === 'createComputePipelineAsync')
+          return (descriptor: GPUComputePipelineDescriptor) => {
+            if (descriptor.label === 'glanz compact records') target.destroy();
+            // The builder's programs fail as this one does.
+            return target.lost.then(() => Promise.reject(new Error('lost')));
+          };
+        return typeof value === 'function' ? (value as () => unknown).bind(target) : value;
+      },
+    });
+    const memory = new GpuMemory(losing);
+    const compact = COMPACT_SHAPES;
+    const making = buildOnGpu(gpuBuilds(losing, memory, 'gpu') as GpuBuilds, stage().meshes, {
+      compact,
+      signal: new AbortController().signal,
+      onProgress: () => {},
+    });
+    await expect(making).rejects.toMatchObject({ code: 'renderer/device-lost' });
+    expect(memory.bytes).toBe(0);
   });
 
   it('report a device that is lost while they are built', async () => {
