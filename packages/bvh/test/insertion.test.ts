@@ -45,7 +45,7 @@ function places(nodes: Float32Array, words: Uint32Array, box: Box) {
   return { all, heights, height };
 }
 
-test('a box goes where it adds least of all slots, within the depth (seeds 90 to 101)', () => {
+test('a box goes where it adds the minimum of all slots, within the depth (seeds 90 to 101)', () => {
   const seen = { above: 0, slots: 0, bounded: 0 };
   for (let seed = 90; seed < 102; seed++) {
     const random = randomNumbers(seed);
@@ -66,13 +66,13 @@ test('a box goes where it adds least of all slots, within the depth (seeds 90 to
           expect(found).toBe(NOWHERE);
           continue;
         }
-        const least = Math.min(...allowed.map(({ cost }) => cost));
+        const minimum = Math.min(...allowed.map(({ cost }) => cost));
         const place = allowed.find(({ slot }) => slot === found);
         // Several slots may cost the same but for rounding.
-        expect(place?.cost).toBeCloseTo(least, 6);
+        expect(place?.cost).toBeCloseTo(minimum, 6);
         if (found === ABOVE_ROOT) seen.above++;
         else seen.slots++;
-        if (least > free + 1e-6) seen.bounded++;
+        if (minimum > free + 1e-6) seen.bounded++;
       }
     }
   }

@@ -9,7 +9,7 @@ const device = await testDevice();
 expectNoGpuErrors();
 const { COPY_DST, COPY_SRC, STORAGE } = GPUBufferUsage;
 
-it('are those that the CPU makes, in parts or at once', async () => {
+it('records of compact triangles made on the GPU are those that the CPU makes, in parts or at once', async () => {
   const triangles = 1000;
   const region = {
     firstNode: 0,
