@@ -4,11 +4,19 @@ import { BenchError } from '../error';
 import type { ProductMeasurement } from './measure';
 import { productTable, remarks } from './summary';
 
+/** Which code was measured, and when. */
+interface Source {
+  readonly commit?: string;
+  readonly date?: string;
+}
+
 /** What is read of a report of the benchmark `products`. */
 export interface ProductReport {
   readonly benchmark: string;
   readonly gpu?: { readonly name: string };
-  readonly machine: { readonly commit?: string; readonly date?: string };
+  readonly machine: Source;
+  /** Of joined reports: where each comes from. */
+  readonly sources?: readonly Source[];
   readonly settings: { readonly titles: Readonly<Record<string, string>>; readonly peer: string };
   readonly notes: readonly string[];
   readonly details: readonly ProductMeasurement[];
@@ -32,13 +40,16 @@ export function joinedMeasurements(reports: readonly ProductReport[]): readonly 
   return [...all.values()];
 }
 
+const sourcesOf = (reports: readonly ProductReport[]): Source[] =>
+  reports.flatMap(({ sources, machine: { commit, date } }) => sources ?? [{ commit, date } as Source]);
+
 /** The page of the documentation. */
 export function productPage(reports: readonly ProductReport[], mean: string): string {
   const all = joinedMeasurements(reports);
   const titles = Object.assign({}, ...reports.map(({ settings }) => settings.titles)) as Record<string, string>;
   const shown = [...new Set(all.map(({ product }) => product))];
   const notes = remarks(all);
-  const commits = [...new Set(reports.map(({ machine }) => machine.commit ?? 'unknown'))].join(', ');
+  const commits = [...new Set(sourcesOf(reports).map(({ commit = 'unknown' }) => commit))].join(', ');
   const gpus = [...new Set(reports.map(({ gpu }) => gpu?.name ?? 'unknown'))].join(', ');
   return `<!-- Written by npm run bench -- products --from FILE,FILE --pages FOLDER; do not edit. -->
 
@@ -78,7 +89,7 @@ export function writeProductPage(
   const settings = { ...reports[0]?.settings, titles };
   // With the measurements, so that later reports can be joined with them.
   const details = joinedMeasurements(reports);
-  const sources = reports.map(({ machine: { commit, date } }) => ({ commit, date }));
+  const sources = sourcesOf(reports);
   const report = { benchmark: 'products', machine, gpu, settings, sources, figures, notes: [], details };
   writeFileSync(data, `${JSON.stringify(report, null, 1)}\n`);
   return [page, data];

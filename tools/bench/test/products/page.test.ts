@@ -44,7 +44,12 @@ it('writes the page and the figures of reports, and refuses other files', () => 
   expect(page).toContain('Measured on a GPU (commits abc1234);');
   expect(page).toContain('- `a`: a bottle\n');
   expect(page).not.toContain('a ring');
-  expect(JSON.parse(readFileSync(join(folder, 'products.json'), 'utf8'))).toMatchObject({ figures: [{ name: 'x' }] });
+  const data = join(folder, 'products.json');
+  expect(JSON.parse(readFileSync(data, 'utf8'))).toMatchObject({ figures: [{ name: 'x' }] });
+  // What was joined before keeps its commits.
+  writeFileSync(file, JSON.stringify({ ...report(measurement('b', 1)), machine: { commit: 'def5678' } }));
+  writeProductPage(readReports([data, file]), [], '1', folder);
+  expect(readFileSync(join(folder, 'products.md'), 'utf8')).toContain('(commits abc1234, def5678);');
   writeFileSync(file, '{"benchmark":"lights"}');
   expect(() => readReports([file])).toThrow(expect.objectContaining({ code: 'bench/missing-data' }));
   rmSync(folder, { recursive: true });
