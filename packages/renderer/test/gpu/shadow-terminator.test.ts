@@ -2,7 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Light, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
-import { casesOf, samplesOf } from '../full';
+import { casesOf } from '../full';
 import { addQuad, addSphere, createScene, lambert, middle } from '../scenes';
 
 let device: GPUDevice;
@@ -124,16 +124,17 @@ describe('a ball of few triangles with smooth normals', () => {
       addQuad(scene, 3, 0, lamp, { transform: [0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 4, 0, 0, 1] });
       return scene;
     };
-    const samples = samplesOf(64, 4);
-    const both = await image(lit(true), { sampler: 'sobol' }, samples);
+    const both = await image(lit(true), { sampler: 'sobol' });
     const alone = lit(false);
     alone.environment = { type: 'constant', radiance: [4, 4, 4] };
     const all = createScene();
     addSphere(all, 0.8, [0, 0, 0], lambert(0.8), 16);
     all.environment = { type: 'constant', radiance: [4, 4, 4] };
     // Everything without what the dark wall hides is what the wall would give.
+    // The standard error of the difference, over 16 seeds, is 0.43 % of `both` with 64 samples of each, 0.42 % of it from
+    // `dimmed`: with four times the samples of that, about 0.23 %, less than a quarter of what is allowed.
     // All samples of the first are the same: nothing hides the environment from a convex ball.
-    const [bright, dimmed] = [await image(all, {}, 16), await image(alone, {}, samples)];
+    const [bright, dimmed] = [await image(all, {}, 16), await image(alone, {}, 256)];
     expect(Math.abs(mean(both) - (mean(bright) - mean(dimmed)))).toBeLessThan(0.01 * mean(both));
   });
 });
