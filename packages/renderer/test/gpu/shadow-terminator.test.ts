@@ -132,7 +132,7 @@ describe('a ball of few triangles with smooth normals', () => {
     all.environment = { type: 'constant', radiance: [4, 4, 4] };
     // Everything without what the dark wall hides is what the wall would give.
     // The standard error of the difference, over 16 seeds, is 0.43 % of `both` with 64 samples of each, 0.42 % of it from
-    // `dimmed`: with four times the samples of that, about 0.23 %, less than a quarter of what is allowed.
+    // `dimmed`: with four times the samples of that, about 0.24 %, less than a quarter of what is allowed.
     // All samples of the first are the same: nothing hides the environment from a convex ball.
     const [bright, dimmed] = [await image(all, {}, 16), await image(alone, {}, 256)];
     expect(Math.abs(mean(both) - (mean(bright) - mean(dimmed)))).toBeLessThan(0.01 * mean(both));
