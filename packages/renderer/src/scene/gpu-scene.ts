@@ -326,7 +326,7 @@ export class GpuScene {
       if (!tree?.gpu) continue;
       const region = this.#geometry.regions[i] as MeshRegion;
       tree.gpu.place((name) => this.shapes(name), region);
-      // What a mesh was built in is freed before the one after the next is placed.
+      // The pace lets the GPU free what large meshes were built in before many more are placed.
       yield 64 * region.nodes;
     }
     for (const { buffer, offset, data } of joinSlices(shapeSlices(this.#scene, this.#geometry))) {
