@@ -34,7 +34,7 @@ export interface SceneChoices {
   readonly backFaceCulling: BackFaceCulling;
   /** Paths that a guide learns from, in millions; 0: there is none. */
   readonly guiding: number;
-  /** Whether light by way of panes is guided, see {@link hasPanes}. Decided once: edits do not change it. */
+  /** Whether light by way of panes is guided. Decided when the tracer is created: edits do not change it. */
   readonly panes?: boolean;
   /** Holds the arrays of shapes that are too large for buffers. */
   readonly pages?: Pages | undefined;
