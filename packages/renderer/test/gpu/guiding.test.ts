@@ -1,11 +1,9 @@
-import { compose, wgslModule } from '@glanz/wgsl';
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
-import guide from '../../src/guiding/guide.wesl';
 import { GUIDE_BINS, GUIDE_WIDTH } from '../../src/guiding/guide_constants.wesl';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
-import { readFloats } from '../../src/storage/read-buffer';
+import { drawGuide } from '../draw-guide';
 import { addQuad, camera, createScene, lambert } from '../scenes';
 import { random } from '../tree-lights';
 
@@ -33,50 +31,7 @@ describe('a table of directions', () => {
 
   it('gives directions with the density that it tells, which integrates to its share', async () => {
     const { data, chances } = table();
-    const texture = device.createTexture({ size: [GUIDE_WIDTH, 1], format: 'r32float', usage: 0x6 });
-    device.queue.writeTexture({ texture }, data, { bytesPerRow: 4 * GUIDE_WIDTH }, [GUIDE_WIDTH, 1]);
-    const result = device.createBuffer({ size: 32 * DRAWS, usage: 0x84 });
-    // Of each draw a direction with its density, and the density of another one, spread evenly over the sphere.
-    const main = wgslModule(
-      'test/guide',
-      `@group(0) @binding(0) var guide: texture_2d<f32>;
-@group(0) @binding(1) var<storage, read_write> result: array<vec4f>;
-@compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
-  let place = guide_find(vec3f(0.25, 9.0, -9.0));
-  let u = vec2f(f32(id.x) + 0.5, f32(reverseBits(id.x) >> 8u) * ${DRAWS / 2 ** 24}) / ${DRAWS}.0;
-  let direction = guide_sample(place, vec2f(u.x * guide_share(place), u.y));
-  result[2u * id.x] = vec4f(direction, guide_pdf(place, direction));
-  let around = 6.283185307179586 * u.y;
-  let z = 2.0 * u.x - 1.0;
-  let even = vec3f(sqrt(1.0 - z * z) * vec2f(cos(around), sin(around)), z);
-  result[2u * id.x + 1u] = vec4f(guide_pdf(place, even), guide_share(place),
-    guide_share(guide_find(vec3f(0.2, 0.0, 0.0))), length(direction));
-}`,
-      [guide],
-    );
-    const pipeline = await device.createComputePipelineAsync({
-      layout: 'auto',
-      compute: { module: device.createShaderModule({ code: compose([main]).code }), entryPoint: 'main' },
-    });
-    const encoder = device.createCommandEncoder();
-    const pass = encoder.beginComputePass();
-    pass.setPipeline(pipeline);
-    pass.setBindGroup(
-      0,
-      device.createBindGroup({
-        layout: pipeline.getBindGroupLayout(0),
-        entries: [
-          { binding: 0, resource: texture.createView() },
-          { binding: 1, resource: { buffer: result } },
-        ],
-      }),
-    );
-    pass.dispatchWorkgroups(DRAWS / 64);
-    pass.end();
-    device.queue.submit([encoder.finish()]);
-    const found = await readFloats(device, result);
-    result.destroy();
-    texture.destroy();
+    const found = await drawGuide(device, { table: data, width: GUIDE_WIDTH, draws: DRAWS, panes: false });
 
     const counts = new Float64Array(GUIDE_BINS);
     let integral = 0;
