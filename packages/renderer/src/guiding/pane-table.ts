@@ -1,6 +1,6 @@
 import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
 import type { EnvironmentData } from '../environment/environment';
-import { GUIDE_BINS, GUIDE_COLUMNS, GUIDE_ROWS, GUIDE_WIDTH } from './pane_constants.wesl';
+import { PANE_BINS, PANE_COLUMNS, PANE_ROWS, PANE_WIDTH } from './pane_constants.wesl';
 
 /** The share of directions that are chosen towards light that panes reflect. */
 const REFLECTED = 0.2;
@@ -40,14 +40,14 @@ export function* paneTableSteps(
   panes: readonly Instance[],
   environment: Pick<EnvironmentData, 'table' | 'rotation'>,
 ): Generator<void, { readonly table: Float32Array<ArrayBuffer>; readonly width: number }> {
-  const table = new Float32Array(GUIDE_WIDTH * Math.ceil((2 + GUIDE_BINS) / GUIDE_WIDTH));
+  const table = new Float32Array(PANE_WIDTH * Math.ceil((2 + PANE_BINS) / PANE_WIDTH));
   table[0] = 1;
   const mapped = panes.some(({ material }) => (scene.materials[material] as Material).textures?.geometry_normal);
   const slopes = mapped ? [...SLOPES, ...MAPPED_SLOPES] : SLOPES;
   const normals = (yield* planesOf(scene, panes)).flatMap((plane) => tilted(plane, slopes));
   const bright = yield* brightness(environment);
-  const moments = new Float64Array(GUIDE_BINS);
-  for (let bin = 0; bin < GUIDE_BINS; bin++) {
+  const moments = new Float64Array(PANE_BINS);
+  for (let bin = 0; bin < PANE_BINS; bin++) {
     if (bin % BINS === 0) yield;
     const from = middleOf(bin);
     for (const normal of normals) {
@@ -61,13 +61,13 @@ export function* paneTableSteps(
     if (total > 0) below += (REFLECTED * Math.sqrt(moment)) / total;
     table[2 + bin] = below;
   });
-  return { table, width: GUIDE_WIDTH };
+  return { table, width: PANE_WIDTH };
 }
 
 /** The middle of a bin of guide_bins.wesl. */
 function middleOf(bin: number): Vector {
-  const x = (2 * (Math.floor(bin / GUIDE_COLUMNS) + 0.5)) / GUIDE_ROWS - 1;
-  const around = (((bin % GUIDE_COLUMNS) + 0.5) / GUIDE_COLUMNS - 0.5) * 2 * Math.PI;
+  const x = (2 * (Math.floor(bin / PANE_COLUMNS) + 0.5)) / PANE_ROWS - 1;
+  const around = (((bin % PANE_COLUMNS) + 0.5) / PANE_COLUMNS - 0.5) * 2 * Math.PI;
   const r = Math.sqrt(1 - x * x);
   return [x, r * Math.cos(around), r * Math.sin(around)];
 }

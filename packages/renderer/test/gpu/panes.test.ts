@@ -2,7 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { finish, type Material, type Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { prepareEnvironment } from '../../src/environment/environment';
-import { GUIDE_BINS, GUIDE_COLUMNS, GUIDE_ROWS, PANE_BEHIND } from '../../src/guiding/pane_constants.wesl';
+import { PANE_BINS, PANE_COLUMNS, PANE_ROWS, PANE_BEHIND } from '../../src/guiding/pane_constants.wesl';
 import { paneTableSteps } from '../../src/guiding/pane-table';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import { panesOf } from '../../src/materials/panes';
@@ -80,26 +80,26 @@ describe('a table of directions towards panes', () => {
     const { table, width } = finish(paneTableSteps(scene, panesOf(scene), light));
     const draws = 1 << 16;
     const found = await drawGuide(device, { table, width, draws, panes: true });
-    const [share, behind] = [table[1 + GUIDE_BINS]! + PANE_BEHIND, PANE_BEHIND / (4 * Math.PI)];
+    const [share, behind] = [table[1 + PANE_BINS]! + PANE_BEHIND, PANE_BEHIND / (4 * Math.PI)];
     const drawn = new Map<number, { count: number; pdf: number }>();
     let integral = 0;
     for (let i = 0; i < draws; i++) {
       const [x, y, z, pdf, even, told] = found.subarray(8 * i, 8 * i + 8) as unknown as number[];
       expect(told).toBeCloseTo(share, 6);
       integral += (even! * 4 * Math.PI) / draws;
-      const row = Math.min(Math.floor(((x! + 1) * GUIDE_ROWS) / 2), GUIDE_ROWS - 1);
-      const column = Math.floor((Math.atan2(z!, y!) / (2 * Math.PI) + 0.5) * GUIDE_COLUMNS);
-      const bin = GUIDE_COLUMNS * row + Math.min(column, GUIDE_COLUMNS - 1);
+      const row = Math.min(Math.floor(((x! + 1) * PANE_ROWS) / 2), PANE_ROWS - 1);
+      const column = Math.floor((Math.atan2(z!, y!) / (2 * Math.PI) + 0.5) * PANE_COLUMNS);
+      const bin = PANE_COLUMNS * row + Math.min(column, PANE_COLUMNS - 1);
       const one = drawn.get(bin) ?? { count: 0, pdf: pdf! };
       drawn.set(bin, { count: one.count + 1, pdf: one.pdf });
     }
     // Directions that are mirrored in the pane are a few bins; the others have the environment's density alone.
     const mirrored = [...drawn.values()].filter(({ pdf }) => pdf > 2 * behind);
     expect(mirrored.length).toBeGreaterThan(4);
-    expect(mirrored.length).toBeLessThan(GUIDE_BINS / 20);
+    expect(mirrored.length).toBeLessThan(PANE_BINS / 20);
     // Of such a bin as many as its density says: at its edges and by the even points between them a few are off.
     for (const { count, pdf } of mirrored) {
-      const expected = (pdf * 4 * Math.PI * draws) / GUIDE_BINS / share;
+      const expected = (pdf * 4 * Math.PI * draws) / PANE_BINS / share;
       expect(Math.abs(count - expected)).toBeLessThan(0.05 * expected + 8);
     }
     // 65,536 even points in 8,192 bins, eight each: the sum over the mirrored ones is off by their edges.

@@ -1,7 +1,7 @@
 import { finish } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
 import { prepareEnvironment } from '../../src/environment/environment';
-import { GUIDE_BINS, GUIDE_COLUMNS, GUIDE_ROWS } from '../../src/guiding/pane_constants.wesl';
+import { PANE_BINS, PANE_COLUMNS, PANE_ROWS } from '../../src/guiding/pane_constants.wesl';
 import { paneTableSteps } from '../../src/guiding/pane-table';
 import { panesOf } from '../../src/materials/panes';
 import { addQuad, addSphere, createScene } from '../scenes';
@@ -21,13 +21,13 @@ function environment(x: number, y: number, rotation = 0) {
 /** The probability of each bin. */
 function chances(scene = createScene(), light = environment(0, 0)): number[] {
   const { table } = finish(paneTableSteps(scene, panesOf(scene), light));
-  return Array.from({ length: GUIDE_BINS }, (_, bin) => table[2 + bin]! - (bin > 0 ? table[1 + bin]! : 0));
+  return Array.from({ length: PANE_BINS }, (_, bin) => table[2 + bin]! - (bin > 0 ? table[1 + bin]! : 0));
 }
 
 /** The middle of a bin. */
 function middleOf(bin: number): readonly [number, number, number] {
-  const x = (2 * (Math.floor(bin / GUIDE_COLUMNS) + 0.5)) / GUIDE_ROWS - 1;
-  const around = (((bin % GUIDE_COLUMNS) + 0.5) / GUIDE_COLUMNS - 0.5) * 2 * Math.PI;
+  const x = (2 * (Math.floor(bin / PANE_COLUMNS) + 0.5)) / PANE_ROWS - 1;
+  const around = (((bin % PANE_COLUMNS) + 0.5) / PANE_COLUMNS - 0.5) * 2 * Math.PI;
   return [x, Math.sqrt(1 - x * x) * Math.cos(around), Math.sqrt(1 - x * x) * Math.sin(around)];
 }
 
