@@ -84,8 +84,8 @@ describe('a table of directions towards panes', () => {
     const drawn = new Map<number, { count: number; pdf: number }>();
     let integral = 0;
     for (let i = 0; i < draws; i++) {
-      const [x, y, z, pdf, even, told] = found.subarray(8 * i, 8 * i + 8) as unknown as number[];
-      expect(told).toBeCloseTo(share, 6);
+      const [x, y, z, pdf, even, reported] = found.subarray(8 * i, 8 * i + 8) as unknown as number[];
+      expect(reported).toBeCloseTo(share, 6);
       integral += (even! * 4 * Math.PI) / draws;
       const row = Math.min(Math.floor(((x! + 1) * PANE_ROWS) / 2), PANE_ROWS - 1);
       const column = Math.floor((Math.atan2(z!, y!) / (2 * Math.PI) + 0.5) * PANE_COLUMNS);
