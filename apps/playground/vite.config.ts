@@ -36,9 +36,6 @@ export default defineConfig({
               name: 'shared',
               test: /packages\/(wgsl\/src\/(?!error)|viewer\/src\/visibility|scene\/src\/until-aborted)/,
             },
-            // What describes each parameter is for panels; they alone read it.
-            { name: 'page', test: /packages\/openpbr\/src\/parameters\/specs/, priority: 2 },
-            { name: 'parameter-texts', test: /packages\/openpbr\/src\/parameters\/(table|texts)/, priority: 1 },
             // What the first image needs of the page and its panels, links and recordings too: one file, not fifteen.
             {
               name: 'page',

@@ -411,10 +411,13 @@ function encode({ width, height, depth, values }, step) {
         const difference = at(x, y, z) - predicted;
         // Zigzag keeps small magnitudes at small codes.
         const code = difference >= 0 ? 2 * difference : -2 * difference - 1;
+        // One digit for most; those from 64 on begin two, and "~" three.
         text +=
-          code < 80
+          code < 64
             ? digit(code)
-            : `~${digit(Math.floor(code / 6400))}${digit(Math.floor(code / 80) % 80)}${digit(code % 80)}`;
+            : code < 64 + 16 * 80
+              ? digit(64 + Math.floor((code - 64) / 80)) + digit((code - 64) % 80)
+              : `~${digit(Math.floor(code / 6400))}${digit(Math.floor(code / 80) % 80)}${digit(code % 80)}`;
       }
     }
   }

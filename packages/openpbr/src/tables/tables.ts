@@ -32,8 +32,9 @@ function decode({ width, height, depth, step: unit, text }: EncodedTable): Float
   };
   for (let i = 0; i < steps.length; i++) {
     let code = digit();
-    // "~" stands for a difference of three digits.
-    if (text.charCodeAt(at - 1) === 126) code = (digit() * 80 + digit()) * 80 + digit();
+    // The first digit tells how many follow: from 64 on one; "~" is above all digits, and three follow.
+    if (code > 79) code = (digit() * 80 + digit()) * 80 + digit();
+    else if (code > 63) code = 64 + (code - 64) * 80 + digit();
     steps[i] = code % 2 === 0 ? code / 2 : -(code + 1) / 2;
   }
   // What is written is the difference along x, of those along y, of those along z.
