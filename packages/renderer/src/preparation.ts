@@ -40,6 +40,8 @@ export interface Products {
   /** The scene that belongs to the tracer, validated. */
   readonly scene: Scene;
   readonly camera: Camera;
+  /** Light by way of these is guided; none where a guide is trained, which replaces that. */
+  readonly panes: readonly Instance[];
   /** Arrays that will probably be too large for buffers. */
   readonly pages: Pages | undefined;
   /** Writes the shapes, if they are to be compact. */
@@ -84,9 +86,6 @@ export interface PreparationInput {
   readonly isLate: () => boolean;
 }
 
-/** Whether light by way of panes is guided; a guide that is trained replaces that. */
-const hasPanes = (scene: Scene, { guiding }: TracerSettings) => !guiding && panesOf(scene).length > 0;
-
 /** What decides the kernels' text: the scene's features, the camera and the options. */
 export function kernelFeatures(features: KernelFeatures, camera: Camera, options: TracerSettings): KernelFeatures {
   return {
@@ -116,6 +115,12 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
       checkInteriors(scene);
       return scene;
     },
+  }),
+  stage({
+    name: 'panes',
+    needs: ['scene'],
+    place: 'foreground',
+    run: ({ scene }) => (options.guiding > 0 ? [] : panesOf(scene)),
   }),
   stage({
     name: 'compact',
@@ -150,10 +155,9 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
   }),
   stage({
     name: 'textures',
-    needs: ['scene', 'camera', 'pages'],
+    needs: ['scene', 'panes', 'camera', 'pages'],
     place: 'foreground',
-    async run({ scene, camera, pages }, { signal }) {
-      const panes = hasPanes(scene, options);
+    async run({ scene, panes, camera, pages }, { signal }) {
       const layout = (of: Scene) => texturePlan(device, of, { ...options, pages, panes });
       const textures = new TextureFit({ device, scene, camera, options, layout, signal });
       await textures.fit();
@@ -162,14 +166,10 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
   }),
   stage({
     name: 'expected',
-    needs: ['scene', 'camera', 'compact', 'pages', 'textures'],
+    needs: ['scene', 'panes', 'camera', 'compact', 'pages', 'textures'],
     place: 'foreground',
-    run: ({ scene, camera, compact, pages }) =>
-      kernelFeatures(
-        expectedFeatures(device, scene, { ...options, compact, pages, panes: hasPanes(scene, options) }),
-        camera,
-        options,
-      ),
+    run: ({ scene, panes, camera, compact, pages }) =>
+      kernelFeatures(expectedFeatures(device, scene, { ...options, compact, pages, panes }), camera, options),
   }),
   stage({
     name: 'request',
@@ -200,12 +200,12 @@ function transfer({ device, memory, cache, options, builders, isLate }: Preparat
     }),
     stage({
       name: 'shapes',
-      needs: ['scene', 'geometry', 'textures'],
+      needs: ['scene', 'panes', 'geometry', 'textures'],
       place: 'foreground',
-      async run({ scene, geometry, textures }, { signal }) {
+      async run({ scene, panes, geometry, textures }, { signal }) {
         onProgress?.({ stage: 'upload', done: 0 });
         const pages = await choosePages(device, shapeBytes(scene, geometry));
-        const choices = { ...options, pages, compact: geometry.compact, panes: hasPanes(scene, options) };
+        const choices = { ...options, pages, compact: geometry.compact, panes };
         const make = () => memory.track(() => new GpuScene(device, memory, scene, geometry, choices));
         let shapes: GpuScene | undefined;
         while (!shapes) {
@@ -284,15 +284,14 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
   return [
     stage({
       name: 'guide',
-      needs: ['scene', 'geometry', 'gpuScene', 'features', 'camera'],
+      needs: ['scene', 'panes', 'geometry', 'gpuScene', 'features', 'camera'],
       place: 'elsewhere',
       async run(products, { signal }) {
-        const { scene, gpuScene } = products;
-        const panes = hasPanes(scene, options);
-        if (!options.guiding && !panes) return;
+        const { scene, panes, gpuScene } = products;
+        if (!options.guiding && panes.length === 0) return;
         const { paneTableSteps, trainGuide } = await loadPart('guide-training', import('./session/guide-training'));
-        if (panes) {
-          const steps = paneTableSteps(scene, panesOf(scene), gpuScene.environment);
+        if (panes.length > 0) {
+          const steps = paneTableSteps(scene, panes, gpuScene.environment);
           const { table, width } = await inSlices(steps, { signal });
           await withErrorScopes(device, 'the guide', () => gpuScene.setGuide(table, width));
           return;

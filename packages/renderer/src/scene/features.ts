@@ -1,5 +1,5 @@
 import { requiredFeatures } from '@glanz/openpbr';
-import type { Material, Scene } from '@glanz/scene';
+import type { Instance, Material, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../integrator/pipelines';
 import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
 import { isOneSided } from '../geometry/culling';
@@ -34,8 +34,8 @@ export interface SceneChoices {
   readonly backFaceCulling: BackFaceCulling;
   /** Paths that a guide learns from, in millions; 0: there is none. */
   readonly guiding: number;
-  /** Whether light by way of panes is guided. Decided when the tracer is created: edits do not change it. */
-  readonly panes?: boolean;
+  /** Light by way of these is guided. Chosen when the tracer is created: edits do not change it. */
+  readonly panes?: readonly Instance[];
   /** Holds the arrays of shapes that are too large for buffers. */
   readonly pages?: Pages | undefined;
   /** Writes the shapes, where they are compact. */
@@ -110,7 +110,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
       CATCHER: facts.catchers,
       LIGHT_GROUPS: choices.lightGroups !== 'off',
       NEXT_EVENT: lights || environmentSampled,
-      PANES: choices.panes === true && environmentSampled,
+      PANES: (choices.panes?.length ?? 0) > 0 && environmentSampled,
       ...interiorFlags(scene.materials),
       TERMINATOR_LIFT:
         choices.shadowTerminator === 'smooth' && scene.meshes.some(({ normals }) => normals !== undefined),
@@ -141,7 +141,7 @@ export function texturePlan(
     usedTextures(scene.materials),
     device.limits.maxSampledTexturesPerShaderStage -
       OWN_TEXTURES -
-      (guiding > 0 || panes ? 1 : 0) -
+      (guiding > 0 || (panes?.length ?? 0) > 0 ? 1 : 0) -
       (pages?.names.length ?? 0),
     device.limits,
     compressedFormats(device),
