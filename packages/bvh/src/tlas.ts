@@ -15,7 +15,7 @@ export interface Tlas {
   readonly instanceOrder: Uint32Array<ArrayBuffer>;
   /**
    * 12 numbers an instance given: the rows of the 3×4 matrix from world to object space. Those of instances that are
-   * left out are undefined.
+   * left out mean nothing.
    */
   readonly toObject: Float64Array<ArrayBuffer>;
   /** Box of everything, in the world. */

@@ -4,8 +4,8 @@ import { createRequire } from 'node:module';
 const pinned: GPU[] = [];
 
 /**
- * A device of Dawn's null backend, for tests of which programs and buffers are made: it has all features, checks
- * shaders as any other does, compiles and runs nothing. Its subgroups have up to 128 threads.
+ * A device of Dawn's null backend, for tests of which programs and buffers are made: it has all features and validates
+ * shaders, but compiles and runs nothing. Its subgroups have up to 128 threads.
  *
  * @returns The device, and the messages of its errors outside of any error scope.
  */

@@ -16,6 +16,7 @@ import type { GpuMemory } from '../storage/buffers';
 import type { readFloats } from '../storage/read-buffer';
 import type { packFrame } from './frame';
 
+// In the same chunk: scenes without a guide load neither.
 export { paneTableSteps } from '../guiding/pane-table';
 
 /** What {@link trainGuide} works with. */
