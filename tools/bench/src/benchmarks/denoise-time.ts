@@ -1,7 +1,7 @@
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { FILM_WEIGHTS, FilmDenoiser } from '@glanz/denoise/film';
+import { FILM_WEIGHTS, FilmDenoiser, type FilmWeights } from '@glanz/denoise/film';
 import { PathTracer, requestDevice, type PathTracerOptions } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import type { Benchmark, Figure } from '../benchmark';
@@ -10,20 +10,28 @@ import { flipOfFiles, serveFlipJobs, writeImage, type FlipJob } from '../denoise
 import { PRODUCT_DATA } from '../denoise/product-scenes';
 import { TIME_SCENES, checkTimeScenes, timeScene } from '../denoise/time-scenes';
 import { packedFolder } from '../equal-time/load';
+import { BenchError } from '../error';
 import { geometricMean } from '../geometric-mean';
 
 const WEIGHTS = 'packages/denoise-weights/weights';
-const QUALITIES = ['fast', 'balanced'] as const;
+/** The qualities of `FilmDenoiser`, and the base network with cleaned guides. */
+const NETWORKS: Readonly<Record<string, FilmWeights<string>>> = {
+  ...FILM_WEIGHTS,
+  cleaned: { color: 'rt_hdr_calb_cnrm', albedo: 'rt_alb', normal: 'rt_nrm' },
+};
+const QUALITIES: readonly string[] = ['fast', 'balanced'];
 /** Mean ꟻLIP of an image that is taken for clean. */
 const CLEAN = 0.05;
 /** How much sooner an image shall be clean, in the geometric mean. */
 const SOONER = 5;
 
-/** Samples before what is timed. */
-const WARM_UP = 16;
-
-type Way = 'film' | (typeof QUALITIES)[number];
-const WAYS: readonly Way[] = ['film', ...QUALITIES];
+/** Samples before what is timed: from 32 on the film's variance is known and used. */
+const WARM_UP = 32;
+/**
+ * Seconds that are rendered for before what is timed: while kernels compile, the GPU lowers its clock, on an H200 from
+ * 1,980 to 345 MHz within 3 s, and takes about half a second of work to raise it.
+ */
+const WARM_UP_SECONDS = 1.5;
 
 /** An image that was made, with the time that it took. */
 interface Shot {
@@ -35,7 +43,8 @@ interface Shot {
 /** Images of a scene, made one way, with ever more samples: their errors, and when they are clean. */
 interface Row {
   readonly scene: string;
-  readonly way: Way;
+  /** `film`, or a name of {@link NETWORKS}. */
+  readonly way: string;
   readonly points: readonly (Point & { readonly samples: number })[];
   readonly clean: number | undefined;
 }
@@ -59,6 +68,10 @@ export const benchmark: Benchmark = {
       type: 'string',
       help: `names with semicolons, of products or of the models of bench:pack -- --products; default: ${TIME_SCENES.join(';')}`,
     },
+    qualities: {
+      type: 'string',
+      help: `what is measured, of ${Object.keys(NETWORKS).join(', ')} (the base network with cleaned guides); default: ${QUALITIES.join(',')}`,
+    },
     weights: { type: 'string', help: `folder of the .tza archives; default: ${WEIGHTS}` },
     'reference-seconds': { type: 'string', help: 'that a reference is rendered for; default: 10' },
     seconds: { type: 'string', help: 'after which a film that is not clean is given up; default: a third of that' },
@@ -73,6 +86,14 @@ export const benchmark: Benchmark = {
     const started = performance.now();
     const scenes = values['scenes']?.split(';') ?? TIME_SCENES.slice(0, quick ? 1 : undefined);
     checkTimeScenes(scenes);
+    const qualities = values['qualities']?.split(',') ?? QUALITIES;
+    const unknown = qualities.find((quality) => !Object.hasOwn(NETWORKS, quality));
+    if (unknown !== undefined)
+      throw new BenchError(
+        'bench/option',
+        `--qualities: there is no "${unknown}"; there are: ${Object.keys(NETWORKS).join(', ')}.`,
+      );
+    const ways = ['film', ...qualities];
     const { gpu, adapterName, software } = await createGpu({
       ...(name ? { gpu: name } : {}),
       ...(values['toggles'] === undefined ? {} : { toggles: values['toggles'].split(',') }),
@@ -85,9 +106,15 @@ export const benchmark: Benchmark = {
     const packed = packedFolder(PRODUCT_DATA);
     const weights = values['weights'] ?? (packed ? join(packed, 'weights') : WEIGHTS);
     const denoisers = await Promise.all(
-      QUALITIES.map(async (quality) => {
-        const color = new Uint8Array(readFileSync(join(weights, `${FILM_WEIGHTS[quality].color}.tza`)));
-        return [quality, await FilmDenoiser.create(device, { color }, { maxSubmitMs: 100 })] as const;
+      qualities.map(async (quality) => {
+        const { color, albedo, normal } = NETWORKS[quality]!;
+        const archive = (file: string) => new Uint8Array(readFileSync(join(weights, `${file}.tza`)));
+        const archives = {
+          color: archive(color),
+          ...(albedo ? { albedo: archive(albedo) } : {}),
+          ...(normal ? { normal: archive(normal) } : {}),
+        };
+        return [quality, await FilmDenoiser.create(device, archives, { maxSubmitMs: 100 })] as const;
       }),
     );
     const folder = mkdtempSync(join(tmpdir(), 'glanz-denoise-time-'));
@@ -119,21 +146,23 @@ export const benchmark: Benchmark = {
         writeImage(reference, await long.read('beauty'));
         long.destroy();
         await compared;
-        const made: Record<Way, Shot[]> = { film: [], fast: [], balanced: [] };
+        const made = new Map<string, Shot[]>(ways.map((way) => [way, []]));
         for (const guided of [false, true]) {
           const tracer = await create(guided ? { aovs: ['albedo', 'normal'] } : {});
           // Whatever happens once, such as allocations, comes before what is timed; and the schedule finds the size of
           // submissions, which a first one with programs that were never used would make small.
-          await addSamples(tracer, WARM_UP);
+          const awake = performance.now() + 1000 * (quick ? 0 : WARM_UP_SECONDS);
+          do await addSamples(tracer, tracer.samples + WARM_UP);
+          while (performance.now() < awake);
           if (guided) for (const [, denoiser] of denoisers) await denoiser.denoiseTracer(tracer);
           tracer.reset();
           let rendering = 0;
           for (let samples = 1; samples <= maximum && rendering < limit; samples *= 2) {
             rendering += await elapsed(device, () => addSamples(tracer, samples));
-            const shot = (way: Way, milliseconds: number, image: Float32Array) => {
+            const shot = (way: string, milliseconds: number, image: Float32Array) => {
               const target = file(way, samples);
               writeImage(target, image);
-              made[way].push({ samples, milliseconds, file: target });
+              made.get(way)!.push({ samples, milliseconds, file: target });
             };
             if (!guided) {
               shot('film', rendering, await tracer.read('beauty'));
@@ -148,7 +177,7 @@ export const benchmark: Benchmark = {
           }
           tracer.destroy();
         }
-        const last = made.film.at(-1)!;
+        const last = made.get('film')!.at(-1)!;
         log(
           `${scene}: reference of ${referenceSamples} samples; ${(last.milliseconds / last.samples).toFixed(2)} ms a sample`,
         );
@@ -162,9 +191,9 @@ export const benchmark: Benchmark = {
       for (const { scene, way, clean } of rows)
         if (clean === undefined) notes.push(`${scene}, ${way}: not clean within ${limit / 1e3} s`);
       return {
-        settings: { width, height, scenes, clean: CLEAN, qualities: QUALITIES },
+        settings: { width, height, scenes, clean: CLEAN, qualities },
         gpu: { name: adapterName, software },
-        figures: QUALITIES.flatMap((quality) => figuresOf(quality, rows)),
+        figures: qualities.flatMap((quality) => figuresOf(quality, rows)),
         notes,
         details: rows,
       };
@@ -179,13 +208,14 @@ export const benchmark: Benchmark = {
 /** Compares the images of a scene. */
 async function rowsOf(
   scene: string,
-  made: Readonly<Record<Way, readonly Shot[]>>,
+  made: ReadonlyMap<string, readonly Shot[]>,
   job: Omit<FlipJob, 'tests'>,
   log: (line: string) => void,
 ): Promise<Row[]> {
-  const errors = await flipOfFiles({ ...job, tests: WAYS.flatMap((way) => made[way].map(({ file }) => file)) });
-  return WAYS.map((way) => {
-    const points = made[way].map(({ samples, milliseconds }) => ({ samples, milliseconds, error: errors.shift()! }));
+  const tests = [...made.values()].flatMap((shots) => shots.map(({ file }) => file));
+  const errors = await flipOfFiles({ ...job, tests });
+  return [...made].map(([way, shots]) => {
+    const points = shots.map(({ samples, milliseconds }) => ({ samples, milliseconds, error: errors.shift()! }));
     const clean = crossing(points, CLEAN);
     log(
       `${scene}, ${way}: clean after ${clean?.toFixed(1) ?? `more than ${points.at(-1)!.milliseconds.toFixed(0)}`} ms; FLIP ${points.map(({ samples, error, milliseconds }) => `${error.toFixed(3)} at ${samples} (${milliseconds.toFixed(0)} ms)`).join(', ')}`,
@@ -195,7 +225,7 @@ async function rowsOf(
 }
 
 /** How much sooner images are clean, and what a denoised sample is worth. */
-function figuresOf(quality: (typeof QUALITIES)[number], rows: readonly Row[]): Figure[] {
+function figuresOf(quality: string, rows: readonly Row[]): Figure[] {
   const pairs = rows.flatMap((denoised) => {
     const film = rows.find((row) => row.scene === denoised.scene && row.way === 'film')!;
     return denoised.way === quality ? [{ film, denoised }] : [];
