@@ -1,6 +1,7 @@
 import { NodeWriter } from './builders/node-writer';
 import { buildOverBoxes } from './builders/over-boxes';
 import { BvhError } from './error';
+import { instanceBoxes, withoutGaps, type BuildBoxes, type InstanceBoxes, type TlasInstances } from './instance-boxes';
 import { ABOVE_ROOT, bestSlot, boxAt, heightOf, NOWHERE, rootSurface, surfaceAt } from './insertion';
 import {
   FAR,
@@ -20,6 +21,8 @@ import {
 import { REBUILD_ABOVE } from './refit-quality';
 import type { Tlas } from './tlas';
 import { checkTransform, placeInstance, type TlasInstance } from './place-instance';
+
+export type { BoxTree, BuildBoxes, TlasInstances } from './instance-boxes';
 
 /** Updates of more than this fraction of the instances rebuild the hierarchy at once. */
 const REBUILD_PART = 1 / 4;
@@ -72,11 +75,10 @@ export class DynamicTlas implements Tlas {
   readonly #fitted = new Float32Array(6);
 
   /**
-   * @param instances What can be hit, such as an array; each is asked for once. `undefined`: not in the hierarchy for
-   * now, but may be added by {@link update}.
+   * @param instances Those that are `undefined` may be added by {@link update}.
    * @throws {BvhError} `bvh/transform` for a transform without 16 numbers, `bvh/too-many` beyond 4 million instances.
    */
-  constructor(instances: Pick<readonly (TlasInstance | undefined)[], 'length' | 'at'>) {
+  constructor(instances: TlasInstances) {
     const { length } = instances;
     if (length > 2 ** TLAS_MAX_DEPTH)
       throw new BvhError('bvh/too-many', `${length} instances: one hierarchy holds ${2 ** TLAS_MAX_DEPTH}.`);
@@ -88,15 +90,27 @@ export class DynamicTlas implements Tlas {
     this.#slots = new Int32Array(length).fill(-1);
     this.#heights = new Uint8Array(capacity);
     this.#isChanged = new Uint8Array(capacity);
-    const boxes = new Float32Array(6 * length);
-    const present = new Uint8Array(length);
-    for (let i = 0; i < length; i++) {
-      const instance = instances.at(i);
-      if (!instance) continue;
-      checkTransform(instance, i);
-      present[i] = placeInstance(instance, boxes, 6 * i, this.toObject, 12 * i) ? 1 : 0;
-    }
-    this.#build(boxes, present);
+    this.#build(instanceBoxes(instances, this.toObject));
+  }
+
+  /**
+   * A hierarchy whose first tree is built elsewhere, such as by `GpuBuilder` of `@glanz/bvh/gpu`: of a million instances,
+   * building takes most of the time. Later changes are made here.
+   *
+   * @throws {BvhError} as the constructor; what `build` throws.
+   */
+  static async create(instances: TlasInstances, build: BuildBoxes): Promise<DynamicTlas> {
+    const { length } = instances;
+    const tlas = new DynamicTlas({ length, at: () => undefined });
+    const placed = instanceBoxes(instances, tlas.toObject);
+    const [boxes, kept] = placed;
+    const tree = await build(boxes, kept.length);
+    if (tree) {
+      tlas.#memory.set(tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS));
+      const leaves = kept.map((_, leaf) => kept[tree.order[leaf] as number] as number);
+      tlas.#adopt(tree.nodeCount, leaves);
+    } else tlas.#build(placed);
+    return tlas;
   }
 
   /** As in {@link Tlas.nodes}, but for their order: a child may lie before its parent. Another view after an update. */
@@ -390,21 +404,23 @@ export class DynamicTlas implements Tlas {
     }
     for (const [instance, placing] of changes)
       present[instance] = placing && placeInstance(placing, boxes, 6 * instance, this.toObject, 12 * instance) ? 1 : 0;
-    this.#build(boxes, present);
+    this.#build(withoutGaps(boxes, present));
   }
 
-  #build(boxes: Float32Array, present: Uint8Array): void {
-    const kept = new Uint32Array(present.length);
-    let count = 0;
-    for (let i = 0; i < present.length; i++) {
-      if (!present[i]) continue;
-      if (count < i) boxes.copyWithin(6 * count, 6 * i, 6 * i + 6);
-      kept[count++] = i;
-    }
+  #build([boxes, kept]: InstanceBoxes): void {
     // Into the memory that is there: a copy of the nodes of a million instances would be 64 MB.
     const writer = new NodeWriter(this.#heights.length, this.#memory.buffer);
-    const nodeCount = (this.#nodeCount = buildOverBoxes(boxes, count, TLAS_MAX_DEPTH, writer).count);
-    this.#count = count;
+    this.#adopt(buildOverBoxes(boxes, kept.length, TLAS_MAX_DEPTH, writer).count, kept);
+  }
+
+  /**
+   * Takes a tree over that is in memory.
+   *
+   * @param leaves Leaf order → instance.
+   */
+  #adopt(nodeCount: number, leaves: Uint32Array): void {
+    this.#nodeCount = nodeCount;
+    this.#count = leaves.length;
     this.#slots.fill(-1);
     this.#surfaces = 0;
     const words = this.#words;
@@ -413,7 +429,7 @@ export class DynamicTlas implements Tlas {
       for (let slot = base + LEFT; slot <= base + RIGHT; slot += RIGHT - LEFT) {
         const reference = words[slot] as number;
         if (reference >= LEAF) {
-          const instance = kept[leafFirst(reference)] as number;
+          const instance = leaves[leafFirst(reference)] ?? 0;
           words[slot] = leafReference(instance, 1);
           if (this.#memory[boxAt(slot)] !== FAR) this.#slots[instance] = slot;
         }

@@ -1,70 +1,14 @@
 import { expect, test } from 'vitest';
 import { DynamicTlas } from '../src/dynamic-tlas';
-import {
-  anyHitInstances,
-  buildBlas,
-  buildTlas,
-  closestHitInstances,
-  TLAS_MAX_DEPTH,
-  type TlasInstance,
-} from '../src/index';
-import { FAR, LEAF, LEFT, leafCount, leafFirst, NODE_WORDS, PARENT, RIGHT } from '../src/layout';
+import { anyHitInstances, buildBlas, buildTlas, closestHitInstances, type TlasInstance } from '../src/index';
+import { NODE_WORDS } from '../src/layout';
 import { sahCost } from '../src/statistics';
 import { affine, baked, bruteForce, direction, randomNumbers, sphere, strewn } from './shapes';
+import { at, changeAtRandom, checkTlas, type Placing } from './tlas-structure';
 
 const ball = sphere(6);
 const { bounds } = buildBlas(ball);
-const at = (x: number, y: number, z: number, size = 1) => [size, 0, 0, 0, 0, size, 0, 0, 0, 0, size, 0, x, y, z, 1];
 const placed = (transform: ArrayLike<number>): TlasInstance => ({ bounds, transform });
-
-type Placing = TlasInstance | undefined;
-
-/**
- * Checks all that traversals and later updates rely on: each instance is in one leaf, boxes fit tightly, parents are
- * named.
- */
-function check(tlas: DynamicTlas, placings: readonly Placing[]): void {
-  const { nodes, nodeCount } = tlas;
-  const words = new Uint32Array(nodes.buffer, nodes.byteOffset, nodes.length);
-  expect(nodes.length).toBe(nodeCount * NODE_WORDS);
-  const expected = buildTlas(placings.map((placing) => placing ?? placed([NaN, ...at(0, 0, 0).slice(1)])));
-  const present = [...expected.instanceOrder];
-  expect(tlas.count).toBe(present.length);
-  const inTree = new Set(present);
-  placings.forEach((_, i) => tlas.has(i) === inTree.has(i) || expect.fail(`instance ${i}`));
-  expect(nodeCount).toBe(Math.max(1, present.length - 1));
-  expect(tlas.bounds).toEqual(expected.bounds);
-  const seen: number[] = [];
-  let visited = 0;
-  const walk = (node: number, parent: number, depth: number): number[] => {
-    visited++;
-    if (depth > TLAS_MAX_DEPTH || words[node * NODE_WORDS + PARENT] !== parent)
-      expect.fail(`node ${node}: depth ${depth}, below ${parent}`);
-    const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
-    for (const side of [LEFT, RIGHT]) {
-      const low = node * NODE_WORDS + (side === LEFT ? 0 : 8);
-      if (nodes[low] === FAR) continue;
-      const own = [...nodes.subarray(low, low + 3), ...nodes.subarray(low + 4, low + 7)];
-      const reference = words[node * NODE_WORDS + side]!;
-      if (reference >= LEAF) {
-        if (leafCount(reference) !== 1) expect.fail('a leaf of several');
-        seen.push(leafFirst(reference));
-      } else if (walk(reference, node, depth + 1).some((x, k) => x !== own[k]))
-        expect.fail(`the box of node ${reference} is not that of its children`);
-      for (let k = 0; k < 3; k++) {
-        box[k] = Math.min(box[k]!, own[k]!);
-        box[3 + k] = Math.max(box[3 + k]!, own[3 + k]!);
-      }
-    }
-    return box;
-  };
-  walk(0, 0, 1);
-  expect(visited).toBe(nodeCount);
-  expect(seen.sort((a, b) => a - b)).toEqual(present);
-  for (const i of present)
-    for (let k = 12 * i; k < 12 * i + 12; k++)
-      if (tlas.toObject[k] !== expected.toObject[k]) expect.fail(`toObject of instance ${i}`);
-}
 
 for (const count of [0, 1, 2, 3, 7, 60]) {
   test(`a long sequence of changes to ${count} instances keeps the tree whole (seed ${70 + count})`, () => {
@@ -73,24 +17,8 @@ for (const count of [0, 1, 2, 3, 7, 60]) {
       random() < 0.7 ? placed(affine(random, 5)) : undefined,
     );
     const tlas = new DynamicTlas(placings);
-    check(tlas, placings);
-    for (let turn = 0; turn < 400 && count > 0; turn++) {
-      const changes = Array.from({ length: random() < 0.1 ? Math.ceil(random() * count) : 1 }, () => {
-        const i = Math.floor(random() * count),
-          kind = random();
-        const before = placings[i];
-        if (kind < 0.3) placings[i] = undefined;
-        else if (kind < 0.35) placings[i] = placed(at(0, 0, 0, 0));
-        else if (kind < 0.6 && before)
-          placings[i] = placed(
-            Array.from(before.transform, (x, k) => x + (k >= 12 && k < 15 ? 0.05 * (random() - 0.5) : 0)),
-          );
-        else placings[i] = placed(affine(random, 5));
-        return [i, placings[i]] as const;
-      });
-      tlas.update(changes);
-      check(tlas, placings);
-    }
+    checkTlas(tlas, placings);
+    changeAtRandom(tlas, placings, { bounds, random, turns: 400 });
   });
 }
 
@@ -155,7 +83,7 @@ test('a change writes some nodes of many, and reports which (seed 82)', () => {
   expect(new Uint32Array(copy.buffer, 0, tlas.nodes.length)).toEqual(
     new Uint32Array(tlas.nodes.buffer, 0, tlas.nodes.length),
   );
-  check(tlas, placings);
+  checkTlas(tlas, placings);
 });
 
 test('the cost stays near that of a new tree, however the instances move (seed 83)', () => {
@@ -180,9 +108,9 @@ test('instances along a line, added one by one, stay within the depth (seed 84)'
     placings[i] = placed(at(2 ** (i / 40), 0, 0, 0.001));
     tlas.update([[i, placings[i]]]);
   }
-  check(tlas, placings);
+  checkTlas(tlas, placings);
   for (let i = 0; i < placings.length; i += 2) tlas.update([[i, (placings[i] = undefined)]]);
-  check(tlas, placings);
+  checkTlas(tlas, placings);
 });
 
 test('the same changes give the same nodes; wrong ones change nothing', () => {

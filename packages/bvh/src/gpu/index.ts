@@ -1,7 +1,7 @@
 export { GpuBuilder } from './builder';
 export { blasInOrder } from './in-order';
 export { gpuBuildMemory } from './plan';
-export { readGpuBlas } from './read';
+export { readGpuBlas, readGpuBoxTree } from './read';
 export { GpuRefitter, type PreparedRefit, type RefitBlas } from './refit';
 export type {
   GpuBlas,
