@@ -146,13 +146,14 @@ export interface PathTracerOptions {
    */
   readonly hierarchies?: HierarchyBuilder;
   /**
-   * Where the hierarchies of meshes are built. `auto` (default): those of 65,536 triangles or more on the GPU, unless
-   * that is a software adapter, and the others on the CPU at the same time, by `hierarchies` or on this thread. `cpu`:
-   * all on the CPU. `gpu`: all on the GPU. What the GPU has no memory for, cannot bind or does not compile is built on
-   * the CPU. On the GPU a build takes milliseconds and neither reads nor fills a cache; 0.97 to 1.12 times as many
-   * diffuse rays a second pass through the result as through the trees of `buildBlas` (on an H200). Both find the same
-   * surfaces; a ray through an edge, or one that grazes a triangle, may get the neighbour within rounding: some 30 in a
-   * million pixels of a first sample differ.
+   * Where hierarchies are built. `auto` (default): those of meshes with 65,536 triangles or more, and the tree over
+   * 131,072 instances or more, on the GPU, unless that is a software adapter, and the others on the CPU at the same
+   * time, by `hierarchies` or on this thread. `cpu`: all on the CPU. `gpu`: all on the GPU. Upper levels change on the
+   * CPU from then on. What the GPU has no memory for, cannot bind or does not compile is built on the CPU. On the GPU a
+   * build takes milliseconds and neither reads nor fills a cache; 0.97 to 1.12 times as many diffuse rays a second pass
+   * through the result as through the trees of `buildBlas` (on an H200). Both find the same surfaces; a ray through an
+   * edge, or one that grazes a triangle, may get the neighbour within rounding: some 30 in a million pixels of a first
+   * sample differ.
    */
   readonly bvhBuilder?: 'auto' | 'cpu' | 'gpu';
   readonly signal?: AbortSignal;

@@ -1,12 +1,13 @@
 import { packTriangles } from '@glanz/bvh';
+import { DynamicTlas } from '@glanz/bvh/dynamic-tlas';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { bindingStruct, INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../storage/layout';
-import { createYielder, buildHierarchies, trianglesOf, type HierarchyOptions } from './hierarchies';
+import { createYielder, buildHierarchies, instanceTreesOnGpu, trianglesOf, type HierarchyOptions } from './hierarchies';
 import type { Hierarchy, MeshRegion } from './hierarchy';
 import type { ShapeBytes, ShapeSlice } from '../storage/shape-arrays';
 import type { CompactShapes } from './compact-shapes';
-import { isShown, joinedRanges, Placement } from './placement';
+import { isShown, joinedRanges, Placement, tlasInstances } from './placement';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
@@ -88,14 +89,16 @@ const bytesOfTriangles = (triangles: number, records: number, compact: CompactSh
 /**
  * Lays a scene's shapes out.
  *
+ * @param tlas Upper levels, where they are built already.
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
 export function layOutGeometry(
   scene: Scene,
   blas: readonly (Hierarchy | undefined)[],
   compact?: CompactShapes,
+  tlas?: DynamicTlas,
 ): Geometry {
-  const placement = new Placement(scene, blas);
+  const placement = new Placement(scene, blas, tlas);
   const tlasNodes = placement.nodeCapacity;
   const regions: MeshRegion[] = [];
   let nodeCount = tlasNodes;
@@ -142,7 +145,12 @@ export function layOutGeometry(
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
 export async function prepareGeometry(scene: Scene, options: HierarchyOptions = {}): Promise<Geometry> {
-  return layOutGeometry(scene, await prepareHierarchies(scene, options), options.compact);
+  const [blas, build] = await Promise.all([
+    prepareHierarchies(scene, options),
+    instanceTreesOnGpu(options, scene.instances.length),
+  ]);
+  const tlas = build && (await DynamicTlas.create(tlasInstances(scene, blas), build));
+  return layOutGeometry(scene, blas, options.compact, tlas);
 }
 
 /** What hierarchies will have, about, as if all meshes were visible: two triangles a node. */

@@ -1,5 +1,6 @@
 import type { Blas } from '@glanz/bvh';
-import { blasInOrder, GpuBuilder } from '@glanz/bvh/gpu';
+import type { BuildBoxes } from '@glanz/bvh/dynamic-tlas';
+import { blasInOrder, GpuBuilder, readGpuBoxTree } from '@glanz/bvh/gpu';
 import type { Mesh } from '@glanz/scene';
 import { inErrorScopes, lossOr, withErrorScopes } from '../device/error-scopes';
 import { DeviceError } from '../errors';
@@ -42,6 +43,73 @@ export function gpuBuilder(device: GPUDevice): Promise<GpuBuilder> {
   return builder;
 }
 
+/** Writes arrays into buffers of their own, in slices, so that other work of the thread comes in between. */
+function uploader({ device, memory }: Pick<GpuBuilds, 'device' | 'memory'>, signal: AbortSignal | undefined) {
+  const pace = uploadPace(device);
+  return async (label: string, data: Float32Array | Uint32Array): Promise<GPUBuffer> => {
+    const what = 'the meshes of this scene';
+    const buffer = await withErrorScopes(device, what, () =>
+      memory.buffer(label, data.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC),
+    );
+    const written: Promise<void>[] = [];
+    try {
+      for (let at = 0; at < data.byteLength; at += SLICE_BYTES) {
+        signal?.throwIfAborted();
+        const bytes = Math.min(SLICE_BYTES, data.byteLength - at);
+        const slice = new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset + at, bytes);
+        written.push(inErrorScopes(device, what, () => memory.write(buffer, slice, at)).verified);
+        await pace(bytes);
+      }
+      await Promise.all(written);
+      return buffer;
+    } catch (error) {
+      memory.release(buffer);
+      throw error;
+    }
+  };
+}
+
+/** A compiler's error may come from the loss of the device, where the CPU's trees are of no use. */
+const orLoss = <T>(device: GPUDevice, made: Promise<T>): Promise<T> =>
+  made.catch(async (error: unknown) => {
+    throw await lossOr(device, error as DeviceError);
+  });
+
+/**
+ * Builds trees over boxes on the GPU and reads them back, as `DynamicTlas.create` takes them: none where this GPU cannot
+ * build it, and the CPU can. The builder's memory is freed.
+ *
+ * @returns It throws {@link DeviceError} `renderer/device-lost`; the signal's reason.
+ */
+export function boxTreesOnGpu({ device, memory }: GpuBuilds, signal: AbortSignal | undefined): BuildBoxes {
+  // Compiled while meshes are built.
+  gpuBuilder(device).catch(() => {});
+  return async (data, count) => {
+    if (count === 0) return undefined;
+    const own: GPUBuffer[] = [];
+    let builder: GpuBuilder | undefined;
+    try {
+      builder = await gpuBuilder(device);
+      const boxes = await uploader({ device, memory }, signal)('build boxes', data);
+      own.push(boxes);
+      const built = await builder.buildBoxes({ boxes, count }, signal ? { signal } : {});
+      for (const buffer of [built.nodes, built.order]) {
+        memory.adopt('build result', buffer);
+        own.push(buffer);
+      }
+      return await readGpuBoxTree(device, built);
+    } catch (error) {
+      if (signal?.aborted) throw error;
+      const fault = await lossOr(device, error as DeviceError);
+      if (cpuCan(fault)) return undefined;
+      throw fault;
+    } finally {
+      for (const buffer of own) memory.release(buffer);
+      await builder?.releaseMemory();
+    }
+  };
+}
+
 /** What {@link buildOnGpu} has built. */
 export interface GpuTrees {
   /** In the order of the meshes; undefined for what this GPU cannot build, and the CPU can. */
@@ -71,41 +139,15 @@ export async function buildOnGpu(
 ): Promise<GpuTrees> {
   const trees: (Hierarchy | undefined)[] = [];
   const total = meshes.reduce((sum, { indices }) => sum + indices.length, 0);
-  const pace = uploadPace(device);
   let [done, temporaryBytes] = [0, 0];
   let failed = false;
-  // A compiler's error may come from the loss of the device, where the CPU's trees are of no use.
-  const orLoss = <T>(made: Promise<T>) =>
-    made.catch(async (error: unknown): Promise<T> => {
-      throw await lossOr(device, error as DeviceError);
-    });
   // Compiled while the first mesh is written.
-  const creating = orLoss(gpuBuilder(device));
+  const creating = orLoss(device, gpuBuilder(device));
   creating.catch(() => {});
-  const compiling = compact && orLoss(recordsPipeline(device));
+  const compiling = compact && orLoss(device, recordsPipeline(device));
   compiling?.catch(() => {});
 
-  const upload = async (label: string, data: Float32Array | Uint32Array): Promise<GPUBuffer> => {
-    const what = 'the meshes of this scene';
-    const buffer = await withErrorScopes(device, what, () =>
-      memory.buffer(label, data.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC),
-    );
-    const written: Promise<void>[] = [];
-    try {
-      for (let at = 0; at < data.byteLength; at += SLICE_BYTES) {
-        signal.throwIfAborted();
-        const bytes = Math.min(SLICE_BYTES, data.byteLength - at);
-        const slice = new Uint8Array(data.buffer as ArrayBuffer, data.byteOffset + at, bytes);
-        written.push(inErrorScopes(device, what, () => memory.write(buffer, slice, at)).verified);
-        await pace(bytes);
-      }
-      await Promise.all(written);
-      return buffer;
-    } catch (error) {
-      memory.release(buffer);
-      throw error;
-    }
-  };
+  const upload = uploader({ device, memory }, signal);
 
   const build = async (mesh: Mesh): Promise<Hierarchy> => {
     const own: GPUBuffer[] = [];

@@ -1,5 +1,6 @@
 import { loadPart } from '@glanz/wgsl';
 import { buildBlas, type Blas } from '@glanz/bvh';
+import type { BuildBoxes } from '@glanz/bvh/dynamic-tlas';
 import { yieldToEventLoop, type Mesh } from '@glanz/scene';
 import type { CompactShapes } from './compact-shapes';
 import { suitsGpu, type GpuBuilds, type Hierarchy, type HierarchyBuild } from './hierarchy';
@@ -55,6 +56,13 @@ export function createYielder(sliceMs: number = SLICE_MS): () => Promise<void> {
 
 /** What builds and poses on the GPU: a chunk of its own, for most scenes have no use for it. */
 export const loadGpuTrees = () => loadPart('gpu-trees', import('./gpu-trees'));
+
+/** What builds the tree over a scene's instances on the GPU, where there are enough of them. */
+export const instanceTreesOnGpu = async (
+  { gpu, signal }: HierarchyOptions,
+  instances: number,
+): Promise<BuildBoxes | undefined> =>
+  gpu && instances >= gpu.minInstances ? (await loadGpuTrees()).boxTreesOnGpu(gpu, signal) : undefined;
 
 /** Triangles of all meshes. */
 export const trianglesOf = (meshes: readonly Mesh[]) =>

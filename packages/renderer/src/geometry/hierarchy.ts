@@ -62,10 +62,13 @@ export interface GpuBuilds {
   readonly memory: GpuMemory;
   /** Triangles from which on a mesh is built there. */
   readonly minTriangles: number;
+  /** Instances from which on the first tree over them is built there. */
+  readonly minInstances: number;
 }
 
 /** With fewer triangles, building on the CPU takes no longer than compiling and starting the builder of the GPU. */
 const MIN_TRIANGLES = 1 << 16;
+const MIN_INSTANCES = 1 << 17;
 
 /** Whether the option `bvhBuilder` builds anything on the GPU of a device. */
 export function buildsOnGpu(device: GPUDevice, choice: BuilderChoice = 'auto'): boolean {
@@ -76,7 +79,12 @@ export function buildsOnGpu(device: GPUDevice, choice: BuilderChoice = 'auto'): 
 /** What that option means for meshes; undefined: all are built on the CPU. */
 export function gpuBuilds(device: GPUDevice, memory: GpuMemory, choice?: BuilderChoice): GpuBuilds | undefined {
   return buildsOnGpu(device, choice)
-    ? { device, memory, minTriangles: choice === 'gpu' ? 1 : MIN_TRIANGLES }
+    ? {
+        device,
+        memory,
+        minTriangles: choice === 'gpu' ? 1 : MIN_TRIANGLES,
+        minInstances: choice === 'gpu' ? 1 : MIN_INSTANCES,
+      }
     : undefined;
 }
 

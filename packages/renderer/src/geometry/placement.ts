@@ -1,5 +1,5 @@
 import type { TlasInstance } from '@glanz/bvh';
-import { DynamicTlas } from '@glanz/bvh/dynamic-tlas';
+import { DynamicTlas, type TlasInstances } from '@glanz/bvh/dynamic-tlas';
 import type { Instance, Material, Mesh, Scene } from '@glanz/scene';
 import { RenderError } from '../errors';
 import type { Hierarchy } from './hierarchy';
@@ -40,10 +40,17 @@ export class Placement {
   #bare: DynamicTlas | undefined;
   #isBareNew = false;
 
-  /** @throws {RenderError} `renderer/no-triangles` if nothing can be seen. */
-  constructor(scene: Scene, blas: readonly (Hierarchy | undefined)[]) {
+  /**
+   * @param tlas Over {@link tlasInstances}.
+   * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
+   */
+  constructor(
+    scene: Scene,
+    blas: readonly (Hierarchy | undefined)[],
+    tlas = new DynamicTlas(tlasInstances(scene, blas)),
+  ) {
     const { length } = scene.instances;
-    this.tlas = new DynamicTlas({ length, at: (i) => placing(scene, blas, scene.instances[i] as Instance) });
+    this.tlas = tlas;
     this.instanceSlots = new Uint32Array(length).fill(NONE);
     this.#isCatcher = new Uint8Array(length);
     for (let i = 0; i < length; i++) this.#note(scene, i);
@@ -149,6 +156,12 @@ export class Placement {
     throw new RenderError('renderer/no-triangles', 'The scene has no visible triangles.');
   }
 }
+
+/** What the upper levels are over: the scene's instances. */
+export const tlasInstances = (scene: Scene, blas: readonly (Hierarchy | undefined)[]): TlasInstances => ({
+  length: scene.instances.length,
+  at: (i) => placing(scene, blas, scene.instances[i] as Instance),
+});
 
 function placing(scene: Scene, blas: readonly (Hierarchy | undefined)[], instance: Instance): TlasInstance | undefined {
   const tree = blas[instance.mesh];

@@ -91,7 +91,7 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
   },
   textureLodBias: { doc: 'Added to the level of detail of textures; lower is sharper.', softRange: [-4, 4] },
   bvhBuilder: {
-    doc: 'Where hierarchies are built: large meshes on the GPU, which is faster, all on the CPU, or all on the GPU.',
+    doc: 'Where hierarchies are built: those of large meshes and of many instances on the GPU, which is faster, all on the CPU, or all on the GPU.',
   },
   pathsInFlight: {
     doc: 'Maximum number of paths on the GPU at once, about 150 bytes each. Default: 4194304, or 1048576 without buffers of 2 GiB.',

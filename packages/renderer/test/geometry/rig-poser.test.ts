@@ -19,7 +19,7 @@ async function posed(rig: MeshRig, poses: readonly Pose[]) {
   const memory = new GpuMemory(device);
   const { bind } = rig;
   const base = buildBlas(bind);
-  const poser = await RigPoser.create({ device, memory, minTriangles: 1 }, rig, base);
+  const poser = await RigPoser.create({ device, memory, minTriangles: 1, minInstances: 1 }, rig, base);
   const usage = GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC;
   const words = bind.positions.length + (bind.tangents?.length ?? 0);
   const stored = base.triangleIndices.length;
@@ -147,7 +147,7 @@ it('reports that its hierarchy needs a rebuild where neighbours are moved apart'
     [0, false],
     [4, true],
   ] as const) {
-    const poser = await RigPoser.create({ device, memory, minTriangles: 1 }, rig, base);
+    const poser = await RigPoser.create({ device, memory, minTriangles: 1, minInstances: 1 }, rig, base);
     const pose = poseMesh(rig, { joints: [...at(0), ...at(by)] }).pose as MeshPose;
     poser.run(packPose(pose)!, () => array, region);
     await poser.measured;
@@ -171,7 +171,11 @@ it.each(['glanz pose bind', 'glanz pose cost read'])(
     const losing = await losingDevice(label);
     const memory = new GpuMemory(losing);
     const rig = rigOf(8);
-    const making = RigPoser.create({ device: losing, memory, minTriangles: 1 }, rig, buildBlas(rig.bind));
+    const making = RigPoser.create(
+      { device: losing, memory, minTriangles: 1, minInstances: 1 },
+      rig,
+      buildBlas(rig.bind),
+    );
     await expect(making).rejects.toMatchObject({ code: 'renderer/device-lost' });
     expect(memory.bytes).toBe(0);
   },

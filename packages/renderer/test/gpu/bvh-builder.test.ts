@@ -5,6 +5,7 @@ import { COMPACT_SHAPES } from '../../src/geometry/compact-shapes';
 import { prepareGeometry } from '../../src/geometry/geometry';
 import { buildOnGpu } from '../../src/geometry/gpu-trees';
 import { buildsOnGpu, gpuBuilds, suitsGpu, type GpuBuilds } from '../../src/geometry/hierarchy';
+import { Placement } from '../../src/geometry/placement';
 import { PathTracer, requestDevice, type PathTracerOptions } from '../../src/index';
 import { createGpu } from '../../src/node';
 import { GpuMemory } from '../../src/storage/buffers';
@@ -121,6 +122,30 @@ describe('hierarchies built on the GPU', () => {
       tracer.destroy();
       expect([...live.values()]).toEqual([]);
     }
+  });
+
+  it('are built over instances, too, and moved on the CPU', async () => {
+    const { live, device: proxy } = watched();
+    const labels = new Set<string>();
+    const memory = new GpuMemory(proxy);
+    const buffer = memory.buffer.bind(memory);
+    memory.buffer = (label, ...rest) => (labels.add(label), buffer(label, ...rest));
+    const scene = stage();
+    const builds = { device: proxy, memory, minTriangles: Infinity, minInstances: 4 };
+    const { placement, blas } = await prepareGeometry(scene, { gpu: builds });
+    expect(labels).toEqual(new Set(['build boxes']));
+    expect(live.size).toBe(0);
+    const own = new Placement(scene, blas);
+    expect(placement.tlas.bounds).toEqual(own.tlas.bounds);
+    const before = placement.tlas.nodes.slice();
+    scene.instances[2]!.transform = moved(0.1, 0, 0);
+    for (const one of [placement, own]) one.update(scene, blas, [2], true);
+    expect(placement.tlas.nodes).not.toEqual(before);
+    expect(placement.tlas.bounds).toEqual(own.tlas.bounds);
+    // With fewer instances it is built on the CPU.
+    labels.clear();
+    await prepareGeometry(scene, { gpu: { ...builds, minInstances: 5 } });
+    expect(labels.size).toBe(0);
   });
 
   it('are there for picking', async () => {
@@ -311,7 +336,7 @@ describe('hierarchies built on the GPU', () => {
     expect(buildsOnGpu(real, 'cpu')).toBe(false);
     expect(buildsOnGpu(software, 'gpu')).toBe(true);
     const mesh = (triangles: number) => ({ indices: { length: 3 * triangles } }) as unknown as Mesh;
-    const builds = { device: real, memory: new GpuMemory(real), minTriangles: 1000 };
+    const builds = { device: real, memory: new GpuMemory(real), minTriangles: 1000, minInstances: 1 };
     expect([999, 1000, 2 ** 21, 2 ** 21 + 1].map((count) => suitsGpu(builds, mesh(count)))).toEqual([
       false,
       true,

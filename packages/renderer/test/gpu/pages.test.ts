@@ -123,7 +123,7 @@ describe('arrays larger than a binding', () => {
     const { device: small } = limited(device);
     const memory = new GpuMemory(small);
     const signal = new AbortController().signal;
-    const builds = { device: small, memory, minTriangles: 1 };
+    const builds = { device: small, memory, minTriangles: 1, minInstances: 1 };
     const mesh = scene.meshes[0] as Mesh;
     const build = async () => {
       const { trees } = await buildOnGpu(builds, [mesh], { signal, onProgress: () => undefined });
