@@ -1,6 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import { photograph, quads, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import type { GlanzViewerElement } from '@glanz/element';
 import type { Viewer } from '@glanz/viewer';
 import type * as compatExample from '../examples/three-compat';
@@ -22,7 +23,10 @@ declare const window: TestWindow & typeof globalThis;
 // Examples that want a page; those that do not run in examples.test.ts.
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('examples-page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('examples-page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 640 } });
 

@@ -10,7 +10,8 @@ import {
   watch,
   type Served,
 } from '@glanz/browser';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import { build, type BuildOptions } from 'esbuild';
 import type { GlanzViewerElement } from '@glanz/element';
 import { weslSource } from '../../../tools/pipeline/wesl.mjs';
@@ -29,12 +30,12 @@ const POLICY =
   "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src 'self'";
 
 let served: Served;
-test.beforeAll(
-  async () =>
-    void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)), {
-      'Content-Security-Policy': POLICY,
-    })),
-);
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)), {
+    'Content-Security-Policy': POLICY,
+  });
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 // The last of the long files: by one worker alone it would leave a core idle.

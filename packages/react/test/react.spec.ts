@@ -1,6 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import { photograph, quads, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import type { GlanzViewerElement, GlanzViewerProps } from '@glanz/react';
 import { createElement } from 'react';
 import { renderToString } from 'react-dom/server';
@@ -16,7 +17,10 @@ interface TestWindow {
 declare const window: TestWindow & typeof globalThis;
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 

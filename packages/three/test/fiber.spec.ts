@@ -1,6 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import { photograph, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect } from '@playwright/test';
 import type { ThreePathTracer } from '@glanz/three';
 import type { PathTracerProps } from '@glanz/three/fiber';
 
@@ -14,7 +15,10 @@ interface TestWindow {
 declare const window: TestWindow & typeof globalThis;
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('fiber-page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('fiber-page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 200, height: 150 } });
 

@@ -1,7 +1,8 @@
 import { fileURLToPath } from 'node:url';
 import { glb, photograph, servePage, watch, type Served } from '@glanz/browser';
 import { encodePng } from '@glanz/image';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import type { Scene } from '@glanz/scene';
 import type { Viewer, ViewerOptions } from '@glanz/viewer';
 
@@ -14,7 +15,10 @@ interface TestWindow {
 declare const window: TestWindow & typeof globalThis;
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 320, height: 320 } });
 

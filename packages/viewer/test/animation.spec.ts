@@ -1,10 +1,14 @@
 import { fileURLToPath } from 'node:url';
 import { animatedQuads, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect } from '@playwright/test';
 import { done, heard, open, shot } from './open';
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 

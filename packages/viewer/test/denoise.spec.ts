@@ -1,6 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import { injectFaults, quads, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import type { Viewer, ViewerOptions } from '@glanz/viewer';
 import type { denoising, ImageDenoiser } from '@glanz/viewer/denoise';
 import { done, front, heard, model, sky } from './open';
@@ -17,7 +18,10 @@ declare global {
 }
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 

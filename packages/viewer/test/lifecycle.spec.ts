@@ -1,10 +1,14 @@
 import { fileURLToPath } from 'node:url';
 import { injectFaults, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect } from '@playwright/test';
 import { done, heard, model, open, shot } from './open';
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 
@@ -165,6 +169,7 @@ test('destroy() at any moment, twice, frees everything, and ends what is waited 
 
 test('the canvas releases a device before it is destroyed', async ({ page }) => {
   await page.addInitScript(() => {
+    window.ownDevices = true;
     window.order = [];
     for (const [prototype, name] of [
       [GPUCanvasContext.prototype, 'unconfigure'],

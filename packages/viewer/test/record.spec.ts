@@ -1,6 +1,7 @@
 import { fileURLToPath } from 'node:url';
 import { animatedQuads, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect } from '@playwright/test';
 import type { denoising, ImageDenoiser } from '@glanz/viewer/denoise';
 import type * as Record from '@glanz/viewer/record';
 import { open } from './open';
@@ -23,7 +24,10 @@ declare global {
 }
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 

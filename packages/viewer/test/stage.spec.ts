@@ -1,11 +1,15 @@
 import { fileURLToPath } from 'node:url';
 import { quads, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import type { ViewerOptions } from '@glanz/viewer';
 import { done, heard, model, open, shot } from './open';
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 

@@ -1,12 +1,16 @@
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { hdr, injectFaults, pixelsOf, servePage, watch, type Served } from '@glanz/browser';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import type { ViewerOptions } from '@glanz/viewer';
 import { canvas, done, front, heard, model, open as openAt, shot, sky } from './open';
 
 let served: Served;
-test.beforeAll(async () => void (served = await servePage(fileURLToPath(new URL('page', import.meta.url)))));
+test.beforeAll(async ({ deviceHost }) => {
+  served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
+  deviceHost.origin = served.origin;
+});
 test.afterAll(() => served.close());
 test.use({ viewport: { width: 640, height: 480 } });
 
@@ -40,6 +44,7 @@ test('a model appears as it is, events report it, and the view is the one asked 
 
 test('warms up until there is a model, where that is asked for or the adapter is not software', async ({ page }) => {
   await page.addInitScript(() => {
+    window.ownDevices = true;
     window.kernels = [];
     // Bound again below.
     // eslint-disable-next-line @typescript-eslint/unbound-method

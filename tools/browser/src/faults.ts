@@ -124,7 +124,7 @@ function wrapWebGpu(first: object): void {
       return live;
     },
   };
-  Object.assign(window, { gpuFaults: faults, loseGpu: () => faults.lose() });
+  Object.assign(window, { gpuFaults: faults, loseGpu: () => faults.lose(), ownDevices: true });
   Object.assign(faults, first);
   if (!('GPU' in window)) return;
 
