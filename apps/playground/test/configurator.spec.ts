@@ -1,5 +1,6 @@
 import { readFileSync } from 'node:fs';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import {
   checkAccessibility,
   dataOf,
@@ -18,7 +19,10 @@ import {
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
 
-test.beforeAll(async () => ({ origin, close } = await servePlayground()));
+test.beforeAll(async ({ deviceHost }) => {
+  ({ origin, close } = await servePlayground());
+  deviceHost.origin = origin;
+});
 test.afterAll(() => close());
 test.use({ viewport: { width: 900, height: 560 } });
 

@@ -1,4 +1,5 @@
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import { triangle } from '@glanz/browser/files';
 import {
   dataOf,
@@ -17,7 +18,10 @@ import {
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
 
-test.beforeAll(async () => ({ origin, close } = await servePlayground()));
+test.beforeAll(async ({ deviceHost }) => {
+  ({ origin, close } = await servePlayground());
+  deviceHost.origin = origin;
+});
 test.afterAll(() => close());
 test.use({ viewport: { width: 900, height: 560 } });
 

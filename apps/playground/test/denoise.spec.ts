@@ -1,11 +1,15 @@
 import { readFileSync } from 'node:fs';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import { dataOf, finished, imageOf, open as openAt, pixelsOf, save, servePlayground, tab, watch } from './page';
 
 let origin = '';
 let close: () => Promise<void> = async () => undefined;
 
-test.beforeAll(async () => ({ origin, close } = await servePlayground()));
+test.beforeAll(async ({ deviceHost }) => {
+  ({ origin, close } = await servePlayground());
+  deviceHost.origin = origin;
+});
 test.afterAll(() => close());
 test.use({ viewport: { width: 900, height: 560 } });
 

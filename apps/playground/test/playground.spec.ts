@@ -1,7 +1,8 @@
 import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { expect, test, type Page } from '@playwright/test';
+import { test } from '@glanz/browser/shared-device';
+import { expect, type Page } from '@playwright/test';
 import { hdr, triangle } from '@glanz/browser/files';
 import { decodeExr } from '@glanz/image';
 import {
@@ -29,7 +30,10 @@ let origin = '';
 let folder = '';
 let close: () => Promise<void> = async () => undefined;
 
-test.beforeAll(async () => ({ origin, folder, close } = await servePlayground()));
+test.beforeAll(async ({ deviceHost }) => {
+  ({ origin, folder, close } = await servePlayground());
+  deviceHost.origin = origin;
+});
 test.afterAll(() => close());
 
 // Small, as the software GPU is slow: the stage is 560 pixels wide and the film 70.
@@ -98,11 +102,8 @@ test('the Cornell box appears: light above, red left, green right; the saved ima
     expect(header).toContain(`${channel}\0`);
 });
 
-test('an image of any size is rendered, to a file or the clipboard; the screen keeps its samples', async ({
-  page,
-  context,
-}) => {
-  await context.grantPermissions(['clipboard-read', 'clipboard-write'], { origin });
+test('an image of any size is rendered, to a file or the clipboard; the screen keeps its samples', async ({ page }) => {
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write'], { origin });
   await open(page, 'model=cornell-box&scale=0.125&samples=4&max-depth=3');
   await finished(page);
   const restarts = await dataOf(page, 'restarts');
@@ -513,6 +514,7 @@ test('a dropped .hdr lights the scene and is seen behind it', async ({ page }) =
 
 test('a lost device is replaced, and edits survive it', async ({ page }) => {
   await page.addInitScript(() => {
+    window.ownDevices = true;
     const request = GPUAdapter.prototype.requestDevice;
     GPUAdapter.prototype.requestDevice = async function (descriptor) {
       const device = await request.call(this, descriptor);
