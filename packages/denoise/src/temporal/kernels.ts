@@ -1,5 +1,6 @@
 import { compileKernel, type BindingKind, type Kernel } from '../gpu';
 import antialias from './antialias.wesl';
+import change from './change.wesl';
 import combine from './combine.wesl';
 import finish from './finish.wesl';
 import guides from './guides.wesl';
@@ -7,13 +8,14 @@ import reproject from './reproject.wesl';
 import smooth from './smooth.wesl';
 import spread from './spread.wesl';
 
-const MODULES = { guides, reproject, combine, spread, smooth, finish, antialias } as const;
+const MODULES = { guides, reproject, change, combine, spread, smooth, finish, antialias } as const;
 
 /** Buffers that each kernel reads, and those that it writes, in the order of their bindings from 1 on. */
 const BUFFERS = {
   guides: [3, 2],
   reproject: [6, 2],
-  combine: [5, 2],
+  change: [3, 1],
+  combine: [6, 2],
   spread: [3, 1],
   smooth: [3, 1],
   finish: [3, 1],

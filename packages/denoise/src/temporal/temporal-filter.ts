@@ -17,6 +17,8 @@ import {
 /** Samples up to which nothing but the filtered image is shown. */
 const NOISY_SAMPLES = 4;
 const MAX_PASSES = 5;
+/** So many standard deviations stand for no bounds on the history. */
+const UNBOUNDED = 1e15;
 
 /** What one frame leaves for the next one. */
 interface Past {
@@ -72,9 +74,10 @@ type Settings = Omit<TemporalFilterOptions, 'signal'>;
  *   reflections is the shorter, the more the view has turned and the smoother the surface is. What is seen in mirrors or
  *   through clear glass is looked up where its virtual image was, straight on and as far away as the path is long; its
  *   history counts for 4 samples at most where the projections are not known, or instances have moved.
- * - Illumination, the image over its albedo, is averaged with the history by their numbers of samples. The history is
- *   kept within the spread of the pixel's present neighbours, and counts for less where their mean has changed by more
- *   than its noise.
+ * - Illumination, the image over its albedo, is averaged with the history by their numbers of samples. Where the light
+ *   around a pixel has changed by more than its noise, the history gets as much brighter or darker, and where the
+ *   differences of neighbours from their history are alike, as those of noise are not, it counts for less. It is kept
+ *   within the spread of the pixel's present neighbours.
  * - Edges of surfaces are smoothed by the image that was shown before, within the colours around each pixel.
  * - A spatial filter by the variance of that (Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering") takes the
  *   noise that is left; where illumination has none, it changes nothing.
@@ -156,8 +159,9 @@ export class TemporalFilter {
       image('shapes'),
       image('history', COPY_DST),
       image('history moments', COPY_DST),
+      // The second one holds sums over tiles at first, three vectors each.
       image('filter'),
-      image('filter'),
+      image('filter', 0, Math.max(48, 16 * width * height)),
       ...[...names, ...names].map((name) => image(name, name === 'shown' ? COPY_SRC : 0)),
     ]);
     if (!made)
@@ -246,8 +250,9 @@ export class TemporalFilter {
         history,
         historyMoments,
       ]);
-    run('combine', [color, albedo, history, historyMoments, shapes, now.light, now.moments]);
     let [source, target] = filters;
+    if (this.#settings.clampSigmas < UNBOUNDED) run('change', [color, albedo, history, target]);
+    run('combine', [color, albedo, history, historyMoments, shapes, target, now.light, now.moments]);
     if (share > 0 && this.#settings.passes > 0) run('spread', [now.light, now.moments, shapes, source]);
     else source = now.light;
     for (let i = 0; share > 0 && i < this.#settings.passes; i++) {
@@ -357,7 +362,7 @@ export class TemporalFilter {
         size: [width, height],
         samples,
         max_history: maxHistory,
-        clamp_sigmas: Math.min(clampSigmas, 1e15),
+        clamp_sigmas: Math.min(clampSigmas, UNBOUNDED),
         share,
         eye: eyes[0],
         moved: instancesMoved ? 1 : 0,
