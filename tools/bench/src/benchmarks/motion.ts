@@ -1,187 +1,281 @@
-import { mkdirSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { TEMPORAL_AOVS, TemporalFilter } from '@glanz/denoise/temporal';
-import { createCornellBox } from '@glanz/models';
 import { PathTracer, requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
-import { timed, type Benchmark, type Figure } from '../benchmark';
-import { PRODUCT_SCENES, type ProductScene } from '../denoise/product-scenes';
-import { BenchError } from '../error';
+import { timed, type Benchmark, type BenchmarkContext, type BenchmarkResult, type Figure } from '../benchmark';
+import { childJob, inChild, type ChildJobs } from '../child';
+import type { ProductScene } from '../denoise/product-scenes';
 import { flipOfSeen, seen, type SeenImage } from '../flip/flip';
-import { FRAMES, MOVEMENTS, STEP } from '../motion/movements';
+import { shownBytes, writeClip, writePng } from '../motion/clip';
+import { FRAMES, MOVEMENTS, STEP, type Movement } from '../motion/movements';
+import { frameFile, peerFrames, type PeerFrames, type PeerPlan } from '../motion/peer';
+import { MOTION_SCENES } from '../motion/scenes';
+import { listOption } from '../options';
+import { withoutPeer } from '../peers/three-gpu-pathtracer';
 
 /** Frames that are compared with references, each with the one before it. */
 const COMPARED = [29, 59, 89, 119];
 const DEPTH = 6;
 
-/** Ways to show a frame: its samples as they are, and with the frames before. */
-const WAYS = ['raw', 'temporal'] as const;
+/** Ways to show a frame: its samples as they are, with the frames before, and those of another renderer. */
+const WAYS = ['raw', 'temporal', 'three-gpu-pathtracer'] as const;
 type Way = (typeof WAYS)[number];
+type OwnWay = Exclude<Way, 'three-gpu-pathtracer'>;
 
-const SCENES: Readonly<Record<string, (aspect: number) => Promise<ProductScene>>> = {
-  'push-button': PRODUCT_SCENES['push-button, studio']!,
-  helmet: PRODUCT_SCENES['helmet']!,
-  vase: PRODUCT_SCENES['vase']!,
-  room: () => {
-    const scene = createCornellBox();
-    return Promise.resolve({ scene, camera: scene.cameras[0]! });
-  },
-};
+const JOBS: ChildJobs<PeerPlan> = { name: 'motion', file: import.meta.url, run: peerFrames };
 
-/** Linear RGBA as sRGB shows it, in 8 bits: RGB from 0 to 1. */
-function shown(rgba: Float32Array): Float32Array {
-  const out = new Float32Array((rgba.length / 4) * 3);
-  for (let i = 0; i < out.length; i++) {
-    const v = Math.min(Math.max(rgba[4 * Math.floor(i / 3) + (i % 3)]!, 0), 1);
-    out[i] = Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055)) / 255;
-  }
-  return out;
+/** What is kept of one way through a movement. */
+interface Series {
+  /** Images by frame: linear RGBA. */
+  readonly images: ReadonlyMap<number, Float32Array>;
+  readonly milliseconds: readonly number[];
+  /** Each frame as it is shown, RGB in 8 bits, where there is a clip. */
+  readonly clip: readonly Uint8Array[];
+  /** The film some seconds after the last frame. */
+  readonly rested?: { readonly image: Float32Array; readonly samples: number };
 }
 
-/** What is kept of one way through a movement: images by frame, and milliseconds a frame. */
-interface Series {
-  readonly images: Map<number, Float32Array>;
-  readonly milliseconds: number[];
-  /** The film some seconds after the last frame. */
-  rested?: { readonly image: Float32Array; readonly samples: number };
+/** What the command line asks for. */
+interface Settings {
+  readonly width: number;
+  readonly height: number;
+  readonly samples: number;
+  readonly referenceSamples: number;
+  /** The last frame. */
+  readonly last: number;
+  readonly compared: readonly number[];
+  readonly restSeconds: number;
+  readonly scenes: readonly string[];
+  readonly movements: readonly string[];
+  readonly ways: readonly Way[];
+  /** Folders. */
+  readonly images?: string | undefined;
+  readonly clips?: string | undefined;
 }
 
 /** Moving images: 120 frames of a few samples, raw and with the frames before, against references. */
 export const benchmark: Benchmark = {
   description: `${FRAMES} frames of a movement, raw and filtered over time: FLIP against references of the frames, flicker, frame times`,
   options: {
-    scenes: { type: 'string', help: `of ${Object.keys(SCENES).join(',')}; default: all` },
+    scenes: { type: 'string', help: `of ${Object.keys(MOTION_SCENES).join(',')}; default: all` },
     movements: { type: 'string', help: `of ${Object.keys(MOVEMENTS).join(',')}; default: all` },
+    contestants: { type: 'string', help: `of ${WAYS.join(',')}; the last one in orbits alone; default: all` },
     size: { type: 'string', help: 'WIDTHxHEIGHT; default 1920x1080, on software GPUs 160x90' },
     compared: { type: 'string', help: `frames that are compared; default ${COMPARED.join(',')}; "none": times alone` },
     samples: { type: 'string', help: 'of a frame; default 1' },
     references: { type: 'string', help: 'samples of references; default 256' },
     rest: { type: 'string', help: 'seconds after the last frame, compared where it is; the film that begins there' },
     images: { type: 'string', help: 'folder that the compared images go to, as PNG' },
+    clips: { type: 'string', help: 'folder for animated WebP: raw, filtered and reference side by side' },
   },
-  async run({ log, quick, gpu: name, values }) {
-    const { gpu, adapterName, software } = await createGpu(name ? { gpu: name } : {});
-    const device = await requestDevice({ gpu });
-    const small = quick || software;
-    const [width, height] = (values['size'] ?? (small ? '160x90' : '1920x1080')).split('x').map(Number) as [
-      number,
-      number,
-    ];
-    const samples = Number(values['samples'] ?? 1);
-    const referenceSamples = Number(values['references'] ?? (quick ? 4 : 256));
-    const last = quick ? 2 : software ? COMPARED[0]! : FRAMES - 1;
-    const restSeconds = Number(values['rest'] ?? 0);
-    const asked = values['compared'];
-    const compared = quick
-      ? [2]
-      : asked === 'none'
-        ? []
-        : (asked?.split(',').map(Number) ?? COMPARED).filter((frame) => frame >= 1 && frame <= last);
-    const kept = compared.flatMap((frame) => [frame - 1, frame]);
-    const names = values['scenes']?.split(',') ?? Object.keys(SCENES);
-    const movements = values['movements']?.split(',') ?? (quick ? ['orbit'] : Object.keys(MOVEMENTS));
-    const figures: Figure[] = [];
-    const details: unknown[] = [];
-    for (const scene of names) {
-      const load = SCENES[scene];
-      if (!load) throw new BenchError('bench/option', `--scenes: there is no "${scene}".`);
-      const product = await load(width / height);
-      for (const movement of movements) {
-        const moves = MOVEMENTS[movement];
-        if (!moves) throw new BenchError('bench/option', `--movements: there is no "${movement}".`);
-        const title = movement === 'orbit' ? scene : `${scene}, ${movement}`;
-        const create = (aovs: typeof TEMPORAL_AOVS | readonly []) =>
-          PathTracer.create(device, product.scene, { width, height, camera: product.camera, maxDepth: DEPTH, aovs });
-        const add = async (tracer: PathTracer, count: number) => {
-          for await (const progress of tracer.render({ samples: count, maxSubmitMs: 100 })) void progress;
-        };
-        const made = {} as Record<Way, Series>;
-        for (const way of WAYS) {
-          const tracer = await create(way === 'raw' ? [] : TEMPORAL_AOVS);
-          const filter = way === 'raw' ? undefined : await TemporalFilter.create(device);
-          await filter?.prepare(width, height);
-          const series: Series = { images: new Map(), milliseconds: [] };
-          // Shaders and the scheduler warm up before the movement.
-          await add(tracer, 4);
-          for (let frame = 0; frame <= last; frame++) {
-            const started = performance.now();
-            await moves.at(tracer, product, frame);
-            const follows = frame > 0 && (!moves.camera || tracer.history !== undefined);
-            // Other random numbers than those of the frame before, or its noise would never average out.
-            tracer.reset({ firstSample: frame * samples });
-            await add(tracer, samples);
-            const image = filter?.filterTracer(tracer, follows ? 'moves' : 'cuts', moves.instances);
-            await device.queue.onSubmittedWorkDone();
-            series.milliseconds.push(performance.now() - started);
-            if (kept.includes(frame))
-              series.images.set(frame, filter && image ? await filter.read(image) : await tracer.read('beauty'));
-          }
-          if (restSeconds > 0 && way === 'raw' && kept.includes(last))
-            series.rested = { samples: await renderFor(tracer, restSeconds), image: await tracer.read('beauty') };
-          filter?.destroy();
-          tracer.destroy();
-          made[way] = series;
-        }
-        const reference = await create([]);
-        const references = new Map<number, Float32Array>();
-        for (const frame of kept) {
-          await moves.at(reference, product, frame);
-          await add(reference, referenceSamples);
-          references.set(frame, await reference.read('beauty'));
-        }
-        reference.destroy();
-        if (values['images'] && compared.length > 0)
-          await writeImages(
-            values['images'],
-            title,
-            compared,
-            { ...mapImages(made), reference: references },
-            width,
-            height,
-          );
-        const look = (images: ReadonlyMap<number, Float32Array>) =>
-          new Map([...images].map(([frame, image]) => [frame, seen(shown(image), width, height)]));
-        const truth = look(references);
-        for (const way of WAYS) {
-          const looks = look(made[way].images);
-          const error = compared.map((frame) => flipOfSeen(truth.get(frame)!, looks.get(frame)!).mean);
-          const flicker = compared.map((frame) => change(looks, frame) - change(truth, frame));
-          if (compared.length > 0)
-            figures.push(
-              timed(`${title}, ${way}: FLIP against the reference of the frame`, '1', error),
-              timed(`${title}, ${way}: FLIP from frame to frame beyond that of the references`, '1', flicker),
-            );
-          figures.push(timed(`${title}, ${way}: frame`, 'ms', made[way].milliseconds));
-          const { rested } = made[way];
-          if (rested) {
-            const after = flipOfSeen(truth.get(last)!, seen(shown(rested.image), width, height)).mean;
-            figures.push(timed(`${title}: FLIP of the film ${restSeconds} s after the movement`, '1', [after]));
-            log(`${title}, ${restSeconds} s of rest: ${rested.samples} samples, FLIP ${after.toFixed(4)}`);
-          }
-          details.push({
-            scene,
-            movement,
-            way,
-            frames: compared,
-            error,
-            flicker,
-            milliseconds: made[way].milliseconds,
-          });
-          log(
-            `${title}, ${way}: FLIP ${error.map((value) => value.toFixed(4)).join(' ')}, flicker ${flicker.map((value) => value.toFixed(4)).join(' ')}, ${[...made[way].milliseconds].sort((a, b) => a - b)[Math.floor(0.5 * made[way].milliseconds.length)]!.toFixed(1)} ms`,
-          );
-        }
-      }
-    }
-    device.destroy();
-    return {
-      settings: { width, height, frames: last + 1, radiansPerFrame: STEP, depth: DEPTH, samples, referenceSamples },
-      gpu: { name: adapterName, software },
-      figures,
-      details,
-    };
+  async run(context) {
+    await childJob(JOBS);
+    return compareAll(context);
   },
 };
+
+function settingsOf({ quick, values }: BenchmarkContext, software: boolean): Settings {
+  const size = values['size'] ?? (quick || software ? '160x90' : '1920x1080');
+  const [width, height] = size.split('x').map(Number) as [number, number];
+  const last = quick ? 2 : software ? COMPARED[0]! : FRAMES - 1;
+  const asked = values['compared'];
+  const compared = quick
+    ? [2]
+    : asked === 'none'
+      ? []
+      : (asked?.split(',').map(Number) ?? COMPARED).filter((frame) => frame >= 1 && frame <= last);
+  return {
+    width,
+    height,
+    samples: Number(values['samples'] ?? 1),
+    referenceSamples: Number(values['references'] ?? (quick ? 4 : 256)),
+    last,
+    compared,
+    restSeconds: Number(values['rest'] ?? 0),
+    scenes: listOption(values['scenes'], Object.keys(MOTION_SCENES), 'scene'),
+    movements: listOption(values['movements'] ?? (quick ? 'orbit' : undefined), Object.keys(MOVEMENTS), 'movement'),
+    ways: listOption(values['contestants'], WAYS, 'contestant'),
+    images: values['images'],
+    clips: values['clips'],
+  };
+}
+
+async function compareAll(context: BenchmarkContext): Promise<BenchmarkResult> {
+  const { log, gpu: name } = context;
+  const { gpu, adapterName, software } = await createGpu(name ? { gpu: name } : {});
+  const device = await requestDevice({ gpu });
+  const settings = settingsOf(context, software);
+  const { width, height, samples, referenceSamples, last, compared, restSeconds } = settings;
+  const kept = compared.flatMap((frame) => [frame - 1, frame]);
+  const figures: Figure[] = [];
+  const details: unknown[] = [];
+  const notes: string[] = [];
+  for (const scene of settings.scenes) {
+    const product = await MOTION_SCENES[scene]!.load(width / height);
+    for (const movement of settings.movements) {
+      const moves = MOVEMENTS[movement]!;
+      const title = movement === 'orbit' ? scene : `${scene}, ${movement}`;
+      const made = new Map<Way, Series>();
+      for (const way of settings.ways) {
+        if (way !== 'three-gpu-pathtracer') {
+          made.set(way, await frames(device, product, moves, way, settings, kept));
+          continue;
+        }
+        if (movement !== 'orbit') continue;
+        const theirs = withoutPeer(adapterName) ?? (await peerSeries(scene, settings, kept, name));
+        if (typeof theirs !== 'string') made.set(way, theirs.series);
+        notes.push(`${title}, ${way}${typeof theirs === 'string' ? ` skipped: ${theirs}` : `: ${theirs.note}`}`);
+        log(notes.at(-1)!);
+      }
+      const references = await referenceFrames(device, product, moves, settings, kept);
+      if (settings.images && compared.length > 0)
+        for (const [way, { images }] of [...made, ['reference', references] as const])
+          await writeImage(
+            settings.images,
+            `${title.replace(', ', '-')}-${way}`,
+            images.get(compared.at(-1)!)!,
+            settings,
+          );
+      if (settings.clips) {
+        const ways = [...made.values(), references].flatMap(({ clip }) => (clip.length > 0 ? [clip] : []));
+        log(`wrote ${await writeClip(settings.clips, title, ways, width, height)}`);
+      }
+      const look = (images: ReadonlyMap<number, Float32Array>) =>
+        new Map([...images].map(([frame, image]) => [frame, looks(image, settings)]));
+      const truth = look(references.images);
+      for (const [way, { images, milliseconds, rested }] of made) {
+        const shown = look(images);
+        const error = compared.map((frame) => flipOfSeen(truth.get(frame)!, shown.get(frame)!).mean);
+        const flicker = compared.map((frame) => change(shown, frame) - change(truth, frame));
+        if (compared.length > 0)
+          figures.push(
+            timed(`${title}, ${way}: FLIP against the reference of the frame`, '1', error),
+            timed(`${title}, ${way}: FLIP from frame to frame beyond that of the references`, '1', flicker),
+          );
+        const time = timed(`${title}, ${way}: frame`, 'ms', milliseconds);
+        figures.push(time);
+        if (rested) {
+          const after = flipOfSeen(truth.get(last)!, looks(rested.image, settings)).mean;
+          figures.push(timed(`${title}: FLIP of the film ${restSeconds} s after the movement`, '1', [after]));
+          log(`${title}, ${restSeconds} s of rest: ${rested.samples} samples, FLIP ${after.toFixed(4)}`);
+        }
+        details.push({ scene, movement, way, frames: compared, error, flicker, milliseconds });
+        const list = (values: readonly number[]) => values.map((value) => value.toFixed(4)).join(' ');
+        log(`${title}, ${way}: FLIP ${list(error)}, flicker ${list(flicker)}, ${time.median!.toFixed(1)} ms`);
+      }
+    }
+  }
+  device.destroy();
+  return {
+    settings: { width, height, frames: last + 1, radiansPerFrame: STEP, depth: DEPTH, samples, referenceSamples },
+    gpu: { name: adapterName, software },
+    figures,
+    details,
+    notes,
+  };
+}
+
+const createTracer = (
+  device: GPUDevice,
+  { scene, camera }: ProductScene,
+  { width, height }: Settings,
+  aovs: typeof TEMPORAL_AOVS | readonly [],
+) => PathTracer.create(device, scene, { width, height, camera, maxDepth: DEPTH, aovs });
+
+async function add(tracer: PathTracer, samples: number): Promise<void> {
+  for await (const progress of tracer.render({ samples, maxSubmitMs: 100 })) void progress;
+}
+
+/** Renders the frames of a movement. */
+async function frames(
+  device: GPUDevice,
+  product: ProductScene,
+  moves: Movement,
+  way: OwnWay,
+  settings: Settings,
+  kept: readonly number[],
+): Promise<Series> {
+  const { width, height, samples, last, restSeconds, clips } = settings;
+  const tracer = await createTracer(device, product, settings, way === 'raw' ? [] : TEMPORAL_AOVS);
+  const filter = way === 'raw' ? undefined : await TemporalFilter.create(device);
+  await filter?.prepare(width, height);
+  const images = new Map<number, Float32Array>();
+  const milliseconds: number[] = [];
+  const clip: Uint8Array[] = [];
+  // Shaders and the scheduler warm up before the movement.
+  await add(tracer, 4);
+  for (let frame = 0; frame <= last; frame++) {
+    const started = performance.now();
+    await moves.at(tracer, product, frame);
+    const follows = frame > 0 && (!moves.camera || tracer.history !== undefined);
+    // Other random numbers than those of the frame before, or its noise would never average out.
+    tracer.reset({ firstSample: frame * samples });
+    await add(tracer, samples);
+    const filtered = filter?.filterTracer(tracer, follows ? 'moves' : 'cuts', moves.instances);
+    await device.queue.onSubmittedWorkDone();
+    milliseconds.push(performance.now() - started);
+    if (!clips && !kept.includes(frame)) continue;
+    const image = filter && filtered ? await filter.read(filtered) : await tracer.read('beauty');
+    if (kept.includes(frame)) images.set(frame, image);
+    if (clips) clip.push(shownBytes(image));
+  }
+  const rests = restSeconds > 0 && way === 'raw' && kept.includes(last);
+  const rested = rests && { samples: await renderFor(tracer, restSeconds), image: await tracer.read('beauty') };
+  filter?.destroy();
+  tracer.destroy();
+  return { images, milliseconds, clip, ...(rested ? { rested } : {}) };
+}
+
+/** The same frames with many samples. */
+async function referenceFrames(
+  device: GPUDevice,
+  product: ProductScene,
+  moves: Movement,
+  settings: Settings,
+  kept: readonly number[],
+): Promise<Pick<Series, 'images' | 'clip'>> {
+  const { last, referenceSamples, clips } = settings;
+  const tracer = await createTracer(device, product, settings, []);
+  const images = new Map<number, Float32Array>();
+  const clip: Uint8Array[] = [];
+  for (let frame = 0; frame <= last; frame++) {
+    if (!clips && !kept.includes(frame)) continue;
+    await moves.at(tracer, product, frame);
+    // An edit that changes nothing keeps the film.
+    tracer.reset();
+    await add(tracer, referenceSamples);
+    const image = await tracer.read('beauty');
+    if (kept.includes(frame)) images.set(frame, image);
+    if (clips) clip.push(shownBytes(image));
+  }
+  tracer.destroy();
+  return { images, clip };
+}
+
+/** The orbit by three-gpu-pathtracer, in a process of its own. Gives in words why there is none. */
+async function peerSeries(
+  scene: string,
+  { width, height, samples, last }: Settings,
+  kept: readonly number[],
+  gpu: string | undefined,
+): Promise<{ readonly series: Series; readonly note: string } | string> {
+  const folder = mkdtempSync(join(tmpdir(), 'glanz-motion-'));
+  try {
+    const plan = { scene, width, height, maxDepth: DEPTH, samples, last, kept, folder };
+    const made = await inChild<PeerFrames, PeerPlan>(JOBS, gpu === undefined ? plan : { ...plan, gpu });
+    if (typeof made === 'string') return made;
+    const images = new Map(
+      kept.map((frame) => [frame, new Float32Array(Uint8Array.from(readFileSync(frameFile(folder, frame))).buffer)]),
+    );
+    const { rounds, minSamples, milliseconds } = made;
+    const note = `${rounds} rounds a frame, ${made.samples.toFixed(1)} samples a pixel, ${minSamples} at least`;
+    return { series: { images, milliseconds, clip: [] }, note };
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
 
 /** Renders a new film for some seconds. Returns its samples a pixel. */
 async function renderFor(tracer: PathTracer, seconds: number): Promise<number> {
@@ -192,27 +286,23 @@ async function renderFor(tracer: PathTracer, seconds: number): Promise<number> {
   return tracer.samples;
 }
 
-const change = (looks: ReadonlyMap<number, SeenImage>, frame: number) =>
-  flipOfSeen(looks.get(frame - 1)!, looks.get(frame)!).mean;
+/** What is seen of an image, for FLIP. */
+const looks = (rgba: Float32Array, { width, height }: Settings): SeenImage =>
+  seen(
+    Float32Array.from(shownBytes(rgba), (value) => value / 255),
+    width,
+    height,
+  );
 
-const mapImages = (made: Readonly<Record<Way, Series>>) =>
-  Object.fromEntries(WAYS.map((way) => [way, made[way].images])) as Record<Way, Map<number, Float32Array>>;
+const change = (shown: ReadonlyMap<number, SeenImage>, frame: number) =>
+  flipOfSeen(shown.get(frame - 1)!, shown.get(frame)!).mean;
 
-/** Writes the last compared frame of each way. */
-async function writeImages(
+async function writeImage(
   folder: string,
-  title: string,
-  compared: readonly number[],
-  images: Readonly<Record<string, ReadonlyMap<number, Float32Array>>>,
-  width: number,
-  height: number,
+  name: string,
+  rgba: Float32Array,
+  { width, height }: Settings,
 ): Promise<void> {
-  const { default: sharp } = await import('sharp');
   mkdirSync(folder, { recursive: true });
-  for (const [way, frames] of Object.entries(images)) {
-    const rgb = Uint8Array.from(shown(frames.get(compared.at(-1)!)!), (value) => 255 * value);
-    await sharp(rgb, { raw: { width, height, channels: 3 } }).toFile(
-      join(folder, `${title.replace(', ', '-')}-${way}.png`),
-    );
-  }
+  await writePng(join(folder, `${name}.png`), shownBytes(rgba), width, height);
 }

@@ -6,6 +6,7 @@ import { childJob, inChild, type ChildJobs } from '../child';
 import { productFile } from '../denoise/product-scenes';
 import { BenchError } from '../error';
 import { listOption, numberOption } from '../options';
+import { withoutPeer } from '../peers/three-gpu-pathtracer';
 import { measureProduct, RENDERERS, type ProductMeasurement, type ProductPlan } from '../products/measure';
 import { productOf, PRODUCTS } from '../products/scenes';
 import { joinedMeasurements, readReports, writeProductPage } from '../products/page';
@@ -24,12 +25,6 @@ function sizesOf(text: string): readonly { readonly width: number; readonly heig
     return { width: Number(width), height: Number(height) };
   });
 }
-
-/** Why the peer takes no part on an adapter, where that is known beforehand. */
-const withoutPeer = (adapter: string) =>
-  /swiftshader/i.test(adapter)
-    ? 'SwiftShader has too few storage buffers for it (it wants a GPU, or Mesa 25 or later)'
-    : undefined;
 
 /** What earlier reports say together. */
 function fromReports(

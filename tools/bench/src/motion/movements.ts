@@ -45,16 +45,18 @@ function zoomed(camera: Camera, frame: number): Camera {
   return camera.type === 'perspective' ? { ...camera, yfov: camera.yfov * factor } : camera;
 }
 
+/** The camera of a frame of the orbit: around products, and back and forth in front of the room, at the same speed. */
+export function orbitCamera({ scene, camera }: ProductScene, frame: number): Camera {
+  const angle = frame * STEP;
+  return orbited(camera, isRoom(scene) ? SWAY * Math.sin(angle / SWAY) : angle);
+}
+
 /** Movements by name. */
 export const MOVEMENTS: Readonly<Record<string, Movement>> = {
-  // Around products, and back and forth in front of the room, at the same speed.
   orbit: {
     camera: true,
     instances: false,
-    at: (tracer, { scene, camera }, frame) => {
-      const angle = frame * STEP;
-      return tracer.setCamera(orbited(camera, isRoom(scene) ? SWAY * Math.sin(angle / SWAY) : angle));
-    },
+    at: (tracer, product, frame) => tracer.setCamera(orbitCamera(product, frame)),
   },
   zoom: {
     camera: true,

@@ -15,7 +15,7 @@ import {
   WebGPURenderer,
   type Texture,
 } from 'three/webgpu';
-import type { Environment } from '@glanz/scene';
+import type { Environment, PerspectiveCamera } from '@glanz/scene';
 import type { Contestant, Task } from '../equal-time/contestant';
 import { decodePixels, glbImages } from '../equal-time/load';
 
@@ -24,6 +24,20 @@ export interface PeerOptions {
   /** False: what trades truth for smoothness is off (clamps, blurred gloss). True: as its users get it. */
   readonly defaults: boolean;
 }
+
+/** The peer, whose camera can move. */
+export interface ThreeGpuPathtracer extends Contestant {
+  /** Looks from elsewhere, which begins an image again; the field of view stays. */
+  setCamera(camera: PerspectiveCamera): void;
+  /** Samples of the pixel that has fewest. */
+  minSamples(): Promise<number>;
+}
+
+/** Why the peer takes no part on an adapter, where that is known beforehand. */
+export const withoutPeer = (adapter: string): string | undefined =>
+  /swiftshader/i.test(adapter)
+    ? 'SwiftShader has too few storage buffers for it (it wants a GPU, or Mesa 25 or later)'
+    : undefined;
 
 /** Rounds between two waits, so that the queue does not grow without bound. */
 const ROUNDS_PER_WAIT = 32;
@@ -126,7 +140,7 @@ export async function createThreeGpuPathtracer(
   device: GPUDevice,
   task: Task,
   { defaults }: PeerOptions,
-): Promise<Contestant> {
+): Promise<ThreeGpuPathtracer> {
   shimBrowser();
   const { width, height, camera, environment } = task;
   const { canvas, context, texture: target } = createCanvas(device, width, height);
@@ -153,8 +167,11 @@ export async function createThreeGpuPathtracer(
   scene.background ??= new Color(0, 0, 0);
 
   const view = new PhysicalCamera((camera.yfov * 180) / Math.PI, width / height, 0.001, 1000);
-  view.matrix.fromArray(Array.from(camera.transform));
-  view.matrix.decompose(view.position, view.quaternion, view.scale);
+  const place = ({ transform }: PerspectiveCamera) => {
+    view.matrix.fromArray(Array.from(transform));
+    view.matrix.decompose(view.position, view.quaternion, view.scale);
+  };
+  place(camera);
   // Millimetres, as on a lens's barrel.
   view.bokehSize = Math.max(2000 * (camera.lens_radius ?? 0), 1e-9);
   view.focusDistance = camera.focus_distance ?? 1;
@@ -181,7 +198,7 @@ export async function createThreeGpuPathtracer(
       if (i % ROUNDS_PER_WAIT === 0 || i === rounds) await device.queue.onSubmittedWorkDone();
     }
   };
-  const contestant: Contestant = {
+  return {
     unit: 'rounds',
     async restart(seed) {
       tracer.reset();
@@ -191,6 +208,11 @@ export async function createThreeGpuPathtracer(
     },
     advance,
     samples: async () => (await tracer.getSampleCountsAsync()).avg,
+    minSamples: async () => (await tracer.getSampleCountsAsync()).min,
+    setCamera(to) {
+      place(to);
+      tracer.updateCamera();
+    },
     async read() {
       const { texture } = renderer.backend.get(tracer.target);
       const row = Math.ceil((width * 16) / 256) * 256;
@@ -215,5 +237,4 @@ export async function createThreeGpuPathtracer(
       target.destroy();
     },
   };
-  return contestant;
 }

@@ -112,7 +112,8 @@ declare module 'three-gpu-pathtracer/webgpu' {
     setScene(scene: Scene, camera: Object3D): void;
     reset(): void;
     renderSample(): void;
-    getSampleCountsAsync(): Promise<{ readonly avg: number }>;
+    updateCamera(): void;
+    getSampleCountsAsync(): Promise<{ readonly min: number; readonly avg: number }>;
     dispose(): void;
   }
 }
