@@ -17,8 +17,6 @@ import {
 /** Samples up to which nothing but the filtered image is shown. */
 const NOISY_SAMPLES = 4;
 const MAX_PASSES = 5;
-/** So many standard deviations stand for no bounds on the history. */
-const UNBOUNDED = 1e15;
 
 /** What one frame leaves for the next one. */
 interface Past {
@@ -159,7 +157,7 @@ export class TemporalFilter {
       image('shapes'),
       image('history', COPY_DST),
       image('history moments', COPY_DST),
-      // The second one holds sums over tiles at first, three vectors each.
+      // The second one holds sums over tiles at first, 48 bytes each.
       image('filter'),
       image('filter', 0, Math.max(48, 16 * width * height)),
       ...[...names, ...names].map((name) => image(name, name === 'shown' ? COPY_SRC : 0)),
@@ -251,7 +249,7 @@ export class TemporalFilter {
         historyMoments,
       ]);
     let [source, target] = filters;
-    if (this.#settings.clampSigmas < UNBOUNDED) run('change', [color, albedo, history, target]);
+    run('change', [color, albedo, history, target]);
     run('combine', [color, albedo, history, historyMoments, shapes, target, now.light, now.moments]);
     if (share > 0 && this.#settings.passes > 0) run('spread', [now.light, now.moments, shapes, source]);
     else source = now.light;
@@ -362,7 +360,7 @@ export class TemporalFilter {
         size: [width, height],
         samples,
         max_history: maxHistory,
-        clamp_sigmas: Math.min(clampSigmas, UNBOUNDED),
+        clamp_sigmas: Math.min(clampSigmas, 1e15),
         share,
         eye: eyes[0],
         moved: instancesMoved ? 1 : 0,
