@@ -103,9 +103,9 @@ export class DynamicTlas implements Tlas {
     const { length } = instances;
     const tlas = new DynamicTlas({ length, at: () => undefined });
     const placed = instanceBoxes(instances, tlas.toObject);
-    const [boxes, kept] = placed;
+    const { boxes, instances: kept } = placed;
     const tree = await build(boxes, kept.length);
-    if (tree) {
+    if (tree?.order.length === kept.length) {
       tlas.#memory.set(tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS));
       const leaves = kept.map((_, leaf) => kept[tree.order[leaf] as number] as number);
       tlas.#adopt(tree.nodeCount, leaves);
@@ -407,14 +407,14 @@ export class DynamicTlas implements Tlas {
     this.#build(withoutGaps(boxes, present));
   }
 
-  #build([boxes, kept]: InstanceBoxes): void {
+  #build({ boxes, instances }: InstanceBoxes): void {
     // Into the memory that is there: a copy of the nodes of a million instances would be 64 MB.
     const writer = new NodeWriter(this.#heights.length, this.#memory.buffer);
-    this.#adopt(buildOverBoxes(boxes, kept.length, TLAS_MAX_DEPTH, writer).count, kept);
+    this.#adopt(buildOverBoxes(boxes, instances.length, TLAS_MAX_DEPTH, writer).count, instances);
   }
 
   /**
-   * Takes a tree over that is in memory.
+   * Makes the tree that is in memory the hierarchy.
    *
    * @param leaves Leaf order → instance.
    */

@@ -12,15 +12,19 @@ export interface BoxTree {
 }
 
 /**
- * Builds a tree over boxes.
+ * Builds a tree over boxes. Where it gives none, or one without all of them, the caller builds it.
  *
- * @param boxes Six numbers each: min xyz, max xyz; finite.
- * @returns `undefined`: it is to be built by the caller.
+ * @param boxes Six numbers each: min xyz, max xyz; finite. Not to be changed.
+ * @param count How many, also 0.
  */
 export type BuildBoxes = (boxes: Float32Array<ArrayBuffer>, count: number) => Promise<BoxTree | undefined>;
 
-/** Boxes of the instances that can be hit, without gaps, and the numbers of those instances. */
-export type InstanceBoxes = readonly [boxes: Float32Array<ArrayBuffer>, instances: Uint32Array<ArrayBuffer>];
+/** Boxes of the instances that can be hit, without gaps. */
+export interface InstanceBoxes {
+  readonly boxes: Float32Array<ArrayBuffer>;
+  /** The instance of each box. */
+  readonly instances: Uint32Array<ArrayBuffer>;
+}
 
 /**
  * The boxes of instances in world space.
@@ -53,5 +57,5 @@ export function withoutGaps(boxes: Float32Array<ArrayBuffer>, present: Uint8Arra
     if (count < i) boxes.copyWithin(6 * count, 6 * i, 6 * i + 6);
     kept[count++] = i;
   }
-  return [boxes.subarray(0, 6 * count), kept.subarray(0, count)];
+  return { boxes: boxes.subarray(0, 6 * count), instances: kept.subarray(0, count) };
 }

@@ -35,5 +35,5 @@ export async function readGpuBoxTree(
     readBuffer(device, nodes, 64 * nodeCount),
     readBuffer(device, order, 4 * Math.max(1, count)),
   ]);
-  return { nodes: new Float32Array(nodeData), nodeCount, order: new Uint32Array(orderData) };
+  return { nodes: new Float32Array(nodeData), nodeCount, order: new Uint32Array(orderData).subarray(0, count) };
 }
