@@ -371,7 +371,7 @@ export interface RenderStatistics {
    * composed in this time.
    */
   readonly bvhMs: number;
-  /** What was built where in that time: one entry for the CPU and one for the GPU, if they had any. */
+  /** Which meshes were built where in that time: one entry for the CPU and one for the GPU, if they had any. */
   readonly builds: readonly HierarchyBuild[];
   /** Time to write it all to the GPU. */
   readonly uploadMs: number;

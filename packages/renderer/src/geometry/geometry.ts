@@ -1,13 +1,13 @@
 import { packTriangles } from '@glanz/bvh';
-import { DynamicTlas } from '@glanz/bvh/dynamic-tlas';
+import type { DynamicTlas } from '@glanz/bvh/dynamic-tlas';
 import { bvhInstanceStruct } from '@glanz/bvh/wgsl';
 import type { Instance, Mesh, Scene } from '@glanz/scene';
 import { bindingStruct, INSTANCE_CATCHER, instanceStruct, meshStruct, NONE } from '../storage/layout';
-import { createYielder, buildHierarchies, instanceTreesOnGpu, trianglesOf, type HierarchyOptions } from './hierarchies';
+import { createYielder, trianglesOf } from './hierarchies';
 import type { Hierarchy, MeshRegion } from './hierarchy';
 import type { ShapeBytes, ShapeSlice } from '../storage/shape-arrays';
 import type { CompactShapes } from './compact-shapes';
-import { isShown, joinedRanges, Placement, tlasInstances } from './placement';
+import { joinedRanges, Placement } from './placement';
 
 /** Node words: 16 a node. */
 const NODE_WORDS = 16;
@@ -31,38 +31,6 @@ export interface Geometry {
   /** Words of the mesh table and of all attributes. */
   readonly attributeWords: number;
   readonly hasVertexColors: boolean;
-}
-
-/** Meshes that visible instances use, in order. */
-function usedMeshes(scene: Scene): number[] {
-  const used: boolean[] = [];
-  for (const instance of scene.instances) used[instance.mesh] ||= isShown(scene, instance);
-  return [...scene.meshes.keys()].filter((index) => used[index]);
-}
-
-/** The meshes in use that have no hierarchy yet. */
-export function missingMeshes(scene: Scene, blas: readonly (Hierarchy | undefined)[]): number[] {
-  return usedMeshes(scene).filter((index) => !blas[index]);
-}
-
-/**
- * Builds the hierarchies that are missing.
- *
- * @param blas Hierarchies that are there already, by mesh.
- */
-export async function prepareHierarchies(
-  scene: Scene,
-  options: HierarchyOptions = {},
-  blas: readonly (Hierarchy | undefined)[] = [],
-): Promise<(Hierarchy | undefined)[]> {
-  const all = scene.meshes.map((_, i) => blas[i]);
-  const missing = missingMeshes(scene, all);
-  const built = await buildHierarchies(
-    missing.map((index) => scene.meshes[index] as Mesh),
-    options,
-  );
-  missing.forEach((index, i) => (all[index] = built[i]));
-  return all;
 }
 
 const attributesOf = (mesh: Mesh) => [
@@ -137,20 +105,6 @@ export function layOutGeometry(
     attributeWords: words,
     hasVertexColors: scene.meshes.some((mesh, i) => blas[i] !== undefined && mesh.colors !== undefined),
   };
-}
-
-/**
- * Builds all hierarchies in use and lays the shapes out.
- *
- * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
- */
-export async function prepareGeometry(scene: Scene, options: HierarchyOptions = {}): Promise<Geometry> {
-  const [blas, build] = await Promise.all([
-    prepareHierarchies(scene, options),
-    instanceTreesOnGpu(options, scene.instances.length),
-  ]);
-  const tlas = build && (await DynamicTlas.create(tlasInstances(scene, blas), build));
-  return layOutGeometry(scene, blas, options.compact, tlas);
 }
 
 /** What hierarchies will have, about, as if all meshes were visible: two triangles a node. */

@@ -1,6 +1,6 @@
 import type { Blas } from '@glanz/bvh';
 import type { BuildBoxes } from '@glanz/bvh/dynamic-tlas';
-import { blasInOrder, GpuBuilder, readGpuBoxTree } from '@glanz/bvh/gpu';
+import { blasInOrder, GpuBuilder } from '@glanz/bvh/gpu';
 import type { Mesh } from '@glanz/scene';
 import { inErrorScopes, lossOr, withErrorScopes } from '../device/error-scopes';
 import { DeviceError } from '../errors';
@@ -43,11 +43,18 @@ export function gpuBuilder(device: GPUDevice): Promise<GpuBuilder> {
   return builder;
 }
 
-/** Writes arrays into buffers of their own, in slices, so that other work of the thread comes in between. */
-function uploader({ device, memory }: Pick<GpuBuilds, 'device' | 'memory'>, signal: AbortSignal | undefined) {
+/**
+ * Writes arrays into buffers of their own, in slices, so that other work of the thread comes in between.
+ *
+ * @param what For errors: what has no room on the GPU.
+ */
+function uploader(
+  { device, memory }: Pick<GpuBuilds, 'device' | 'memory'>,
+  what: string,
+  signal: AbortSignal | undefined,
+) {
   const pace = uploadPace(device);
   return async (label: string, data: Float32Array | Uint32Array): Promise<GPUBuffer> => {
-    const what = 'the meshes of this scene';
     const buffer = await withErrorScopes(device, what, () =>
       memory.buffer(label, data.byteLength, GPU_BUFFER_STORAGE | GPU_BUFFER_COPY_DST | GPU_BUFFER_COPY_SRC),
     );
@@ -76,10 +83,9 @@ const orLoss = <T>(device: GPUDevice, made: Promise<T>): Promise<T> =>
   });
 
 /**
- * Builds trees over boxes on the GPU and reads them back, as `DynamicTlas.create` takes them: none where this GPU cannot
- * build it, and the CPU can. The builder's memory is freed.
- *
- * @returns It throws {@link DeviceError} `renderer/device-lost`; the signal's reason.
+ * Makes a function that builds a tree over boxes on the GPU and reads it back, for `DynamicTlas.create`. It gives none
+ * where this GPU cannot build it and the CPU can, frees the builder's memory, and throws {@link DeviceError}
+ * `renderer/device-lost` or the signal's reason.
  */
 export function boxTreesOnGpu({ device, memory }: GpuBuilds, signal: AbortSignal | undefined): BuildBoxes {
   // Compiled while meshes are built.
@@ -90,14 +96,20 @@ export function boxTreesOnGpu({ device, memory }: GpuBuilds, signal: AbortSignal
     let builder: GpuBuilder | undefined;
     try {
       builder = await gpuBuilder(device);
-      const boxes = await uploader({ device, memory }, signal)('build boxes', data);
+      const boxes = await uploader({ device, memory }, 'the instances of this scene', signal)('build boxes', data);
       own.push(boxes);
       const built = await builder.buildBoxes({ boxes, count }, signal ? { signal } : {});
       for (const buffer of [built.nodes, built.order]) {
         memory.adopt('build result', buffer);
         own.push(buffer);
       }
-      return await readGpuBoxTree(device, built);
+      const { nodeCount } = built;
+      // Copies that have no memory are the CPU's to build.
+      const [nodes, order] = await Promise.all([
+        readBuffer(device, built.nodes, NODE_BYTES * nodeCount),
+        readBuffer(device, built.order, WORD_BYTES * count),
+      ]);
+      return { nodes: new Float32Array(nodes), nodeCount, order: new Uint32Array(order) };
     } catch (error) {
       if (signal?.aborted) throw error;
       const fault = await lossOr(device, error as DeviceError);
@@ -147,7 +159,7 @@ export async function buildOnGpu(
   const compiling = compact && orLoss(device, recordsPipeline(device));
   compiling?.catch(() => {});
 
-  const upload = uploader({ device, memory }, signal);
+  const upload = uploader({ device, memory }, 'the meshes of this scene', signal);
 
   const build = async (mesh: Mesh): Promise<Hierarchy> => {
     const own: GPUBuffer[] = [];

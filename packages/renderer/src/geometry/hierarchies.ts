@@ -26,7 +26,7 @@ export interface HierarchyBuilder {
 
 export interface HierarchyOptions {
   readonly hierarchies?: HierarchyBuilder | undefined;
-  /** Builds large meshes on the GPU. Absent: all are built on the CPU. */
+  /** Builds hierarchies of large meshes, and of many instances, on the GPU. Absent: all are built on the CPU. */
   readonly gpu?: GpuBuilds | undefined;
   /** Shapes are compact: triangles are packed later. */
   readonly compact?: CompactShapes | undefined;

@@ -56,7 +56,7 @@ export interface HierarchyBuild {
 
 type BuilderChoice = 'auto' | 'cpu' | 'gpu';
 
-/** Which meshes are built on the GPU, and with what. */
+/** What is built on the GPU, and with what. */
 export interface GpuBuilds {
   readonly device: GPUDevice;
   readonly memory: GpuMemory;
@@ -76,7 +76,7 @@ export function buildsOnGpu(device: GPUDevice, choice: BuilderChoice = 'auto'): 
   return choice === 'gpu' || (choice === 'auto' && adapterInfo !== undefined && !isSoftware(adapterInfo));
 }
 
-/** What that option means for meshes; undefined: all are built on the CPU. */
+/** What that option means for a device; undefined: all is built on the CPU. */
 export function gpuBuilds(device: GPUDevice, memory: GpuMemory, choice?: BuilderChoice): GpuBuilds | undefined {
   return buildsOnGpu(device, choice)
     ? {

@@ -3,7 +3,7 @@ import type { Instance, Material, Scene } from '@glanz/scene';
 import type { KernelFeatures } from '../integrator/pipelines';
 import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
 import { isOneSided } from '../geometry/culling';
-import { missingMeshes } from '../geometry/geometry';
+import { missingMeshes } from '../geometry/prepare-geometry';
 import { isShown } from '../geometry/placement';
 import { interiorFlags } from '../materials/interiors';
 import { lightGroupTable } from '../lights/light-groups';

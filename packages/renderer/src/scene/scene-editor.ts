@@ -14,14 +14,8 @@ import { EnvironmentEditor, type EnvironmentAdjustment } from './environment-edi
 import type { GpuScene } from './gpu-scene';
 import type { SceneChange } from './scene-change';
 import { checkParameters } from '../materials/check-parameters';
-import {
-  attributeWords,
-  layOutGeometry,
-  meshSlices,
-  packGeometry,
-  prepareHierarchies,
-  type Geometry,
-} from '../geometry/geometry';
+import { attributeWords, layOutGeometry, meshSlices, packGeometry, type Geometry } from '../geometry/geometry';
+import { prepareHierarchies } from '../geometry/prepare-geometry';
 import { loadGpuTrees, type HierarchyOptions } from '../geometry/hierarchies';
 import type { Hierarchy } from '../geometry/hierarchy';
 import { emittedRadiance, findMaterial } from '../materials/materials';

@@ -3,7 +3,7 @@ import { BlasCache, type BlasStore } from '@glanz/bvh/cache';
 import { expect, it } from 'vitest';
 import type { Scene } from '@glanz/scene';
 import type { HierarchyBuilder } from '../../src/options';
-import { prepareGeometry } from '../../src/geometry/geometry';
+import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 
 it('hierarchies may come out of a cache: the same geometry, and nothing is built the second time', async () => {
   const kept = new Map<string, ArrayBuffer>();

@@ -1,7 +1,7 @@
 import { buildBlas } from '@glanz/bvh';
 import { describe, expect, it } from 'vitest';
 import type { Scene } from '@glanz/scene';
-import { prepareGeometry } from '../../src/geometry/geometry';
+import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 import type { HierarchyBuilder } from '../../src/options';
 
 /** A strip of triangles with heights that no two strips share. */

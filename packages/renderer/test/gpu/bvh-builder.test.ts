@@ -2,7 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Mesh, Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { COMPACT_SHAPES } from '../../src/geometry/compact-shapes';
-import { prepareGeometry } from '../../src/geometry/geometry';
+import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 import { buildOnGpu } from '../../src/geometry/gpu-trees';
 import { buildsOnGpu, gpuBuilds, suitsGpu, type GpuBuilds } from '../../src/geometry/hierarchy';
 import { Placement } from '../../src/geometry/placement';
@@ -142,7 +142,23 @@ describe('hierarchies built on the GPU', () => {
     for (const one of [placement, own]) one.update(scene, blas, [2], true);
     expect(placement.tlas.nodes).not.toEqual(before);
     expect(placement.tlas.bounds).toEqual(own.tlas.bounds);
-    // With fewer instances it is built on the CPU.
+    // Where there is no memory for the copy, it is built on the CPU.
+    let starved = false;
+    const { device: poor } = watched((target) => ({
+      createBuffer: (descriptor: GPUBufferDescriptor) => {
+        starved ||= descriptor.label === 'glanz read';
+        return target.createBuffer(descriptor);
+      },
+      popErrorScope: async () => {
+        const error = await target.popErrorScope();
+        return starved ? { message: 'no memory' } : error;
+      },
+    }));
+    const poorly = { ...builds, device: poor, memory: new GpuMemory(poor) };
+    const { placement: onCpu } = await prepareGeometry(scene, { gpu: poorly });
+    expect(starved).toBe(true);
+    expect(onCpu.tlas.nodes).toEqual(new Placement(scene, blas).tlas.nodes);
+    // With fewer instances, too.
     labels.clear();
     await prepareGeometry(scene, { gpu: { ...builds, minInstances: 5 } });
     expect(labels.size).toBe(0);
@@ -206,6 +222,7 @@ describe('hierarchies built on the GPU', () => {
       'bvh triangles',
       'bvh nodes',
       'glanz compact records',
+      'glanz build boxes',
     ]) {
       const control = new AbortController();
       const reason = new Error(`stopped at ${stop}`);
@@ -313,9 +330,10 @@ describe('hierarchies built on the GPU', () => {
   });
 
   it('report a device that is lost while they are built', async () => {
-    // Each device compiles the builder's programs: at its first buffer and at the last copy, with --full at two between.
-    const stops = ['glanz build positions', 'bvh primitives', 'bvh read', 'glanz read'];
-    for (const stop of process.env['GLANZ_FULL'] === undefined ? [stops[0]!, stops[3]!] : stops) {
+    // Each device compiles the builder's programs: at its first buffer, at the last copy and at the boxes of
+    // instances, with --full at two between.
+    const stops = ['glanz build positions', 'bvh primitives', 'bvh read', 'glanz read', 'glanz build boxes'];
+    for (const stop of process.env['GLANZ_FULL'] === undefined ? [stops[0]!, ...stops.slice(3)] : stops) {
       const losing = await losingDevice(stop);
       const memory = new GpuMemory(losing);
       const making = prepareGeometry(stage(), { gpu: gpuBuilds(losing, memory, 'gpu') });

@@ -6,7 +6,7 @@ import { finish, type Scene } from '@glanz/scene';
 import { compose, wgslModule } from '@glanz/wgsl';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { environmentSteps } from '../../src/environment/environment';
-import { prepareGeometry } from '../../src/geometry/geometry';
+import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 import lightEval from '../../src/lights/light_eval.wesl';
 import { energyTextures } from '../../src/materials/energy-textures';
 import energyHost from '../../src/materials/energy.wesl';

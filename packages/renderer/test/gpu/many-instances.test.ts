@@ -8,7 +8,7 @@ import { GpuScene } from '../../src/scene/gpu-scene';
 import { PathTracer } from '../../src/index';
 import { prepareEnvironment } from '../../src/environment/environment';
 import { expectedFeatures, type SceneChoices } from '../../src/scene/features';
-import { prepareGeometry } from '../../src/geometry/geometry';
+import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 import { addBox, addQuad, addSphere, camera, lambert } from '../scenes';
 
 let device: GPUDevice;

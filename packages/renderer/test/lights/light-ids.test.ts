@@ -1,6 +1,6 @@
 import type { Mesh, Scene } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
-import { prepareGeometry } from '../../src/geometry/geometry';
+import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 import { lightGroupTable } from '../../src/lights/light-groups';
 import { LightIds, lightIndex } from '../../src/lights/light-ids';
 import { buildLightTable, type LightTable } from '../../src/lights/lights';

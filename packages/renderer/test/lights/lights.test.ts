@@ -1,7 +1,7 @@
 import { finish, type Scene } from '@glanz/scene';
 import { describe, expect, it } from 'vitest';
 import { NONE, lightStruct } from '../../src/storage/layout';
-import { prepareGeometry } from '../../src/geometry/geometry';
+import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 import { lightGroupTable } from '../../src/lights/light-groups';
 import { LightIds } from '../../src/lights/light-ids';
 import { buildLightTable, lightSteps, placingSteps, type LightGeometry } from '../../src/lights/lights';
