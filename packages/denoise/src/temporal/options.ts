@@ -7,7 +7,8 @@ export interface TemporalFilterOptions {
   readonly maxHistory?: number;
   /**
    * Standard deviations of a pixel's neighbours that the history may be off their mean: less follows changes sooner,
-   * and keeps less. Above 0; `Infinity` keeps all. Default 3.
+   * and keeps less. Above 0; `Infinity` keeps all, and does not
+   * follow light that changes. Default 3.
    */
   readonly clampSigmas?: number;
   /** Whether edges are smoothed over frames, too. Default true. */

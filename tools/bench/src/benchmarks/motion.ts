@@ -7,8 +7,10 @@ import { createGpu } from '@glanz/renderer/node';
 import { timed, type Benchmark, type BenchmarkContext, type BenchmarkResult, type Figure } from '../benchmark';
 import { childJob, inChild, type ChildJobs } from '../child';
 import type { ProductScene } from '../denoise/product-scenes';
+import { BenchError } from '../error';
 import { flipOfSeen, seen, type SeenImage } from '../flip/flip';
-import { shownBytes, writeClip, writePng } from '../motion/clip';
+import { shownBytes, shownImage } from '../flip/shown';
+import { CLIP_PIXELS, writeClip, writePng } from '../motion/clip';
 import { FRAMES, MOVEMENTS, STEP, type Movement } from '../motion/movements';
 import { frameFile, peerFrames, type PeerFrames, type PeerPlan } from '../motion/peer';
 import { MOTION_SCENES } from '../motion/scenes';
@@ -68,7 +70,10 @@ export const benchmark: Benchmark = {
     references: { type: 'string', help: 'samples of references; default 256' },
     rest: { type: 'string', help: 'seconds after the last frame, compared where it is; the film that begins there' },
     images: { type: 'string', help: 'folder that the compared images go to, as PNG' },
-    clips: { type: 'string', help: 'folder for animated WebP: raw, filtered and reference side by side' },
+    clips: {
+      type: 'string',
+      help: 'folder for animated WebP: raw, filtered and reference side by side; up to 640x360',
+    },
   },
   async run(context) {
     await childJob(JOBS);
@@ -79,6 +84,8 @@ export const benchmark: Benchmark = {
 function settingsOf({ quick, values }: BenchmarkContext, software: boolean): Settings {
   const size = values['size'] ?? (quick || software ? '160x90' : '1920x1080');
   const [width, height] = size.split('x').map(Number) as [number, number];
+  if (values['clips'] && width * height > CLIP_PIXELS)
+    throw new BenchError('bench/option', `--clips: ${size} is too large, at most ${CLIP_PIXELS} pixels: set --size.`);
   const last = quick ? 2 : software ? COMPARED[0]! : FRAMES - 1;
   const asked = values['compared'];
   const compared = quick
@@ -117,6 +124,7 @@ async function compareAll(context: BenchmarkContext): Promise<BenchmarkResult> {
     for (const movement of settings.movements) {
       const moves = MOVEMENTS[movement]!;
       const title = movement === 'orbit' ? scene : `${scene}, ${movement}`;
+      const file = title.replace(', ', '-');
       const made = new Map<Way, Series>();
       for (const way of settings.ways) {
         if (way !== 'three-gpu-pathtracer') {
@@ -132,15 +140,10 @@ async function compareAll(context: BenchmarkContext): Promise<BenchmarkResult> {
       const references = await referenceFrames(device, product, moves, settings, kept);
       if (settings.images && compared.length > 0)
         for (const [way, { images }] of [...made, ['reference', references] as const])
-          await writeImage(
-            settings.images,
-            `${title.replace(', ', '-')}-${way}`,
-            images.get(compared.at(-1)!)!,
-            settings,
-          );
+          await writeImage(settings.images, `${file}-${way}`, images.get(compared.at(-1)!)!, settings);
       if (settings.clips) {
         const ways = [...made.values(), references].flatMap(({ clip }) => (clip.length > 0 ? [clip] : []));
-        log(`wrote ${await writeClip(settings.clips, title, ways, width, height)}`);
+        log(`wrote ${await writeClip(settings.clips, file, ways, width, height)}`);
       }
       const look = (images: ReadonlyMap<number, Float32Array>) =>
         new Map([...images].map(([frame, image]) => [frame, looks(image, settings)]));
@@ -287,12 +290,7 @@ async function renderFor(tracer: PathTracer, seconds: number): Promise<number> {
 }
 
 /** What is seen of an image, for FLIP. */
-const looks = (rgba: Float32Array, { width, height }: Settings): SeenImage =>
-  seen(
-    Float32Array.from(shownBytes(rgba), (value) => value / 255),
-    width,
-    height,
-  );
+const looks = (rgba: Float32Array, { width, height }: Settings): SeenImage => seen(shownImage(rgba), width, height);
 
 const change = (shown: ReadonlyMap<number, SeenImage>, frame: number) =>
   flipOfSeen(shown.get(frame - 1)!, shown.get(frame)!).mean;

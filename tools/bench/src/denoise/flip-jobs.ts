@@ -4,6 +4,7 @@ import { availableParallelism } from 'node:os';
 import { fileURLToPath } from 'node:url';
 import { BenchError } from '../error';
 import { flipOfSeen, seen } from '../flip/flip';
+import { shownImage } from '../flip/shown';
 
 /** Set in the processes that {@link flipOfFiles} starts: the file with their job. */
 const CHILD = 'GLANZ_BENCH_FLIP_JOBS';
@@ -24,12 +25,7 @@ export const writeImage = (file: string, { buffer, byteOffset, byteLength }: Flo
 function readShown(file: string): Float32Array {
   const bytes = readFileSync(file);
   const rgba = new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4);
-  const out = new Float32Array((rgba.length / 4) * 3);
-  for (let i = 0; i < out.length; i++) {
-    const v = Math.min(Math.max(rgba[4 * Math.floor(i / 3) + (i % 3)]!, 0), 1);
-    out[i] = Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055)) / 255;
-  }
-  return out;
+  return shownImage(rgba);
 }
 
 function errorsOf({ tests, reference, width, height }: FlipJob): number[] {

@@ -1,6 +1,7 @@
 import { readFile } from 'node:fs/promises';
 import { BenchError } from '../error';
 import { flip } from '../flip/flip';
+import { shownValue } from '../flip/shown';
 
 /** The scenes of the quality set. */
 export const QUALITY_SCENES = [
@@ -81,11 +82,7 @@ export function relativeError(test: Float32Array, reference: Float32Array): numb
   return sum / pixels;
 }
 
-const shown = (image: Float32Array) =>
-  image.map((value) => {
-    const v = Math.min(Math.max(value, 0), 1);
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
-  });
+const shown = (image: Float32Array) => image.map((value) => shownValue(value));
 
 /** Mean ꟻLIP of two linear images, RGB, as sRGB shows them without a tone map. */
 export const flipOf = (test: Float32Array, reference: Float32Array, width: number, height: number): number =>

@@ -3,16 +3,10 @@ import { join } from 'node:path';
 
 /** Milliseconds that a frame of a clip is shown. */
 const DELAY = 50;
+/** Pixels of a frame at most: all frames of a clip are in memory at once. */
+export const CLIP_PIXELS = 640 * 360;
 /** Pixels between images side by side. */
 const GAP = 4;
-
-/** Linear RGBA as sRGB shows it, in 8 bits: RGB from 0 to 255. */
-export function shownBytes(rgba: Float32Array): Uint8Array {
-  return Uint8Array.from({ length: (rgba.length / 4) * 3 }, (_, i) => {
-    const v = Math.min(Math.max(rgba[4 * Math.floor(i / 3) + (i % 3)]!, 0), 1);
-    return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055));
-  });
-}
 
 /** Writes one image, RGB in 8 bits, as PNG. */
 export async function writePng(file: string, rgb: Uint8Array, width: number, height: number): Promise<void> {
@@ -33,12 +27,13 @@ export function sideBySide(images: readonly Uint8Array[], width: number, height:
 /**
  * Writes an animated WebP of all frames, twenty a second.
  *
+ * @param name Of the file, without its end.
  * @param ways Of each way to show a frame, its frames as RGB in 8 bits; they stand side by side.
  * @returns The file's name.
  */
 export async function writeClip(
   folder: string,
-  title: string,
+  name: string,
   ways: readonly (readonly Uint8Array[])[],
   width: number,
   height: number,
@@ -53,8 +48,9 @@ export async function writeClip(
     ),
   );
   const raw = { width: ways.length * (width + GAP) - GAP, height: frames.length * height, channels: 3 } as const;
-  const file = join(folder, `${title.replace(', ', '-')}.webp`);
-  await sharp(Buffer.concat(frames), { raw: { ...raw, pageHeight: height } })
+  const file = join(folder, `${name}.webp`);
+  // Its limit is for images that one opens unseen.
+  await sharp(Buffer.concat(frames), { raw: { ...raw, pageHeight: height }, limitInputPixels: false })
     .webp({ quality: 45, effort: 6, loop: 0, delay: frames.map(() => DELAY) })
     .toFile(file);
   return file;
