@@ -1,7 +1,7 @@
 import { NodeWriter } from './builders/node-writer';
 import { buildOverBoxes } from './builders/over-boxes';
 import { BvhError } from './error';
-import { instanceBoxes, withoutGaps, type BuildBoxes, type InstanceBoxes, type TlasInstances } from './instance-boxes';
+import { instanceBoxes, type BuildBoxes, type InstanceBoxes, type TlasInstances } from './instance-boxes';
 import { ABOVE_ROOT, bestSlot, boxAt, heightOf, NOWHERE, rootSurface, surfaceAt } from './insertion';
 import {
   FAR,
@@ -103,12 +103,14 @@ export class DynamicTlas implements Tlas {
     const { length } = instances;
     const tlas = new DynamicTlas({ length, at: () => undefined });
     const placed = instanceBoxes(instances, tlas.toObject);
-    const { boxes, instances: kept } = placed;
-    const tree = await build(boxes, kept.length);
-    if (tree?.order.length === kept.length) {
+    const kept = placed.instances;
+    const tree = await build(placed.boxes.subarray(0, 6 * kept.length), kept.length);
+    if (tree) {
       tlas.#memory.set(tree.nodes.subarray(0, tree.nodeCount * NODE_WORDS));
-      const leaves = kept.map((_, leaf) => kept[tree.order[leaf] as number] as number);
-      tlas.#adopt(tree.nodeCount, leaves);
+      tlas.#adopt(
+        tree.nodeCount,
+        tree.order.map((box) => kept[box] as number),
+      );
     } else tlas.#build(placed);
     return tlas;
   }
@@ -392,19 +394,23 @@ export class DynamicTlas implements Tlas {
     const slots = this.#slots,
       memory = this.#memory;
     const boxes = new Float32Array(6 * slots.length);
-    const present = new Uint8Array(slots.length);
+    const kept = new Uint32Array(slots.length);
+    const latest = new Map(changes);
+    let count = 0;
     for (let i = 0; i < slots.length; i++) {
       const slot = slots[i] as number;
-      if (slot < 0) continue;
-      present[i] = 1;
-      for (let k = 0; k < 3; k++) {
-        boxes[6 * i + k] = memory[boxAt(slot) + k] as number;
-        boxes[6 * i + 3 + k] = memory[boxAt(slot) + 4 + k] as number;
+      if (latest.has(i)) {
+        const placing = latest.get(i);
+        if (placing && placeInstance(placing, boxes, 6 * count, this.toObject, 12 * i)) kept[count++] = i;
+      } else if (slot >= 0) {
+        for (let k = 0; k < 3; k++) {
+          boxes[6 * count + k] = memory[boxAt(slot) + k] as number;
+          boxes[6 * count + 3 + k] = memory[boxAt(slot) + 4 + k] as number;
+        }
+        kept[count++] = i;
       }
     }
-    for (const [instance, placing] of changes)
-      present[instance] = placing && placeInstance(placing, boxes, 6 * instance, this.toObject, 12 * instance) ? 1 : 0;
-    this.#build(withoutGaps(boxes, present));
+    this.#build({ boxes, instances: kept.subarray(0, count) });
   }
 
   #build({ boxes, instances }: InstanceBoxes): void {

@@ -12,15 +12,16 @@ export interface BoxTree {
 }
 
 /**
- * Builds a tree over boxes. Where it gives none, or one without all of them, the caller builds it.
+ * Builds a tree over all of some boxes. Where it gives none, the caller builds it.
  *
  * @param boxes Six numbers each: min xyz, max xyz; finite. Not to be changed.
  * @param count How many, also 0.
  */
 export type BuildBoxes = (boxes: Float32Array<ArrayBuffer>, count: number) => Promise<BoxTree | undefined>;
 
-/** Boxes of the instances that can be hit, without gaps. */
+/** Boxes of the instances that can be hit, one after the other. */
 export interface InstanceBoxes {
+  /** With room for more. */
   readonly boxes: Float32Array<ArrayBuffer>;
   /** The instance of each box. */
   readonly instances: Uint32Array<ArrayBuffer>;
@@ -33,29 +34,15 @@ export interface InstanceBoxes {
  * @throws {BvhError} `bvh/transform` for a transform without 16 numbers.
  */
 export function instanceBoxes(instances: TlasInstances, toObject: Float64Array): InstanceBoxes {
-  const boxes = new Float32Array(6 * instances.length);
-  const present = new Uint8Array(instances.length);
-  for (let i = 0; i < present.length; i++) {
+  const { length } = instances;
+  const boxes = new Float32Array(6 * length);
+  const kept = new Uint32Array(length);
+  let count = 0;
+  for (let i = 0; i < length; i++) {
     const instance = instances.at(i);
     if (!instance) continue;
     checkTransform(instance, i);
-    present[i] = placeInstance(instance, boxes, 6 * i, toObject, 12 * i) ? 1 : 0;
+    if (placeInstance(instance, boxes, 6 * count, toObject, 12 * i)) kept[count++] = i;
   }
-  return withoutGaps(boxes, present);
-}
-
-/**
- * Moves the boxes of those that are present together, to the beginning.
- *
- * @param present By instance: 1, or 0.
- */
-export function withoutGaps(boxes: Float32Array<ArrayBuffer>, present: Uint8Array): InstanceBoxes {
-  const kept = new Uint32Array(present.length);
-  let count = 0;
-  for (let i = 0; i < present.length; i++) {
-    if (!present[i]) continue;
-    if (count < i) boxes.copyWithin(6 * count, 6 * i, 6 * i + 6);
-    kept[count++] = i;
-  }
-  return { boxes: boxes.subarray(0, 6 * count), instances: kept.subarray(0, count) };
+  return { boxes, instances: kept.subarray(0, count) };
 }

@@ -103,6 +103,7 @@ export function boxTreesOnGpu({ device, memory }: GpuBuilds, signal: AbortSignal
         memory.adopt('build result', buffer);
         own.push(buffer);
       }
+      if (built.count < count) return undefined;
       const { nodeCount } = built;
       // Copies that have no memory are the CPU's to build.
       const [nodes, order] = await Promise.all([

@@ -38,7 +38,8 @@ export async function prepareHierarchies(
 }
 
 /**
- * Builds all hierarchies in use and lays the shapes out.
+ * Builds all hierarchies in use and lays the shapes out. Where that fails after meshes were built on the GPU, their
+ * memory is the caller's to free.
  *
  * @throws {RenderError} `renderer/no-triangles` if nothing can be seen.
  */
@@ -47,11 +48,6 @@ export async function prepareGeometry(scene: Scene, options: HierarchyOptions = 
     prepareHierarchies(scene, options),
     instanceTreesOnGpu(options, scene.instances.length),
   ]);
-  try {
-    const tlas = build && (await DynamicTlas.create(tlasInstances(scene, blas), build));
-    return layOutGeometry(scene, blas, options.compact, tlas);
-  } catch (error) {
-    for (const tree of blas) tree?.gpu?.free();
-    throw error;
-  }
+  const tlas = build && (await DynamicTlas.create(tlasInstances(scene, blas), build));
+  return layOutGeometry(scene, blas, options.compact, tlas);
 }
