@@ -435,6 +435,7 @@ export class DynamicTlas implements Tlas {
       for (let slot = base + LEFT; slot <= base + RIGHT; slot += RIGHT - LEFT) {
         const reference = words[slot] as number;
         if (reference >= LEAF) {
+          // A tree of nothing has a leaf all the same.
           const instance = leaves[leafFirst(reference)] ?? 0;
           words[slot] = leafReference(instance, 1);
           if (this.#memory[boxAt(slot)] !== FAR) this.#slots[instance] = slot;

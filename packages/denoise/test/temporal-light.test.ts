@@ -41,7 +41,7 @@ const NO_PASSES = { antialias: false, passes: 0 } as const;
 /** A tenth less, or more, from frame to frame. */
 const fades: Light = (_x, _y, frame) => 0.9 ** frame;
 const grows: Light = (_x, _y, frame) => 0.2 * 1.1 ** frame;
-/** The light of a lamp that moves along the wall by two pixels a frame. */
+/** A spot of light that moves along the wall by two pixels a frame. */
 const moves: Light = (x, _y, frame) => 0.1 + Math.exp(-(((x + 6 - 2 * frame) / 12) ** 2));
 /** Stripes, as a glossy surface reflects them, that move by half a pixel a frame. */
 const slides: Light = (x, y, frame) => 0.5 + 0.4 * Math.sin(0.8 * (x - 0.5 * frame) + 0.3 * y);

@@ -35,9 +35,7 @@ export interface ThreeGpuPathtracer extends Contestant {
 
 /** Why the peer takes no part on an adapter, where that is known beforehand. */
 export const withoutPeer = (adapter: string): string | undefined =>
-  /swiftshader/i.test(adapter)
-    ? 'SwiftShader has too few storage buffers for it (it wants a GPU, or Mesa 25 or later)'
-    : undefined;
+  /swiftshader/i.test(adapter) ? 'SwiftShader is too slow for it (it wants a GPU, or Mesa 25 or later)' : undefined;
 
 /** Rounds between two waits, so that the queue does not grow without bound. */
 const ROUNDS_PER_WAIT = 32;

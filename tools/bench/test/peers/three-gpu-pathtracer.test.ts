@@ -5,13 +5,12 @@ import { createScene, type Scene } from '@glanz/scene';
 import { sceneToGlb } from '@glanz/models/gltf';
 import type { Contestant, Task } from '../../src/equal-time/contestant';
 import { createGlanz } from '../../src/equal-time/glanz';
-import { createThreeGpuPathtracer } from '../../src/peers/three-gpu-pathtracer';
+import { createThreeGpuPathtracer, withoutPeer } from '../../src/peers/three-gpu-pathtracer';
 
 const SIZE = 24;
 
-// SwiftShader has too few storage buffers for the peer, and needs minutes for its kernels.
 const gpu = await createGpu().catch(() => undefined);
-const able = gpu !== undefined && !/swiftshader/i.test(gpu.adapterName);
+const able = gpu !== undefined && !withoutPeer(gpu.adapterName);
 
 /** A glowing square in the upper left of the view, below it a diffuse one, under a sky whose four quarters differ. */
 function scene(): Scene {
