@@ -2,7 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
-import { addQuad, camera, createScene, lambert } from '../scenes';
+import { addQuad, camera, createScene } from '../scenes';
 
 let device: GPUDevice;
 beforeAll(async () => {
@@ -35,11 +35,6 @@ async function veils(
   );
   add(scene);
   scene.environment = { type: 'constant', radiance: [1, 1, 1] };
-  return shown(scene, samples, options);
-}
-
-/** Red of all pixels. */
-async function shown(scene: Scene, samples: number, options: Partial<PathTracerOptions>) {
   const tracer = await PathTracer.create(device, scene, {
     width: SIZE,
     height: SIZE,
@@ -110,90 +105,5 @@ describe('opacity', () => {
     const pixels = await veils([0.25], samples, { sampler: 'independent' });
     const mean = pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
     expect(Math.abs(mean - 0.75)).toBeLessThan(4 * Math.sqrt((0.25 * 0.75) / (samples * pixels.length)));
-  });
-
-  it('of several surfaces is met exactly by as many samples as the product is a part of', async () => {
-    // 3/4 · 1/2 · 1/2 = 3/16, of 16 samples on both sides of the diagonals.
-    for (const value of await veils([0.25, 0.5, 0.5], 16)) expect(value).toBeCloseTo(3 / 16, 6);
-  });
-
-  it('of many surfaces shows each by what those before it let through', async () => {
-    const samples = 1024;
-    // Enough to need several numbers for a ray: most of what is left is a 4,000th.
-    const stack = Array.from({ length: 24 }, (_, i) => ({
-      opacity: 0.1 + 0.4 * (((7 * i) % 24) / 24),
-      light: ((11 * i) % 24) / 24,
-    }));
-    const scene = createScene();
-    for (const [i, { opacity, light }] of stack.entries())
-      addQuad(scene, 4, -0.1 * i, {
-        name: `veil ${i}`,
-        parameters: {
-          base_weight: 0,
-          specular_weight: 0,
-          geometry_opacity: opacity,
-          // As much light from each, whatever is before it.
-          emission_luminance: light / stack.slice(0, i).reduce((left, one) => left * (1 - one.opacity), opacity),
-        },
-      });
-    const expected = stack.reduce((sum, { light }) => sum + light, 0);
-    // One sample is one veil's light.
-    const square = stack.reduce((sum, { light, opacity }, i) => {
-      const chance = stack.slice(0, i).reduce((left, one) => left * (1 - one.opacity), opacity);
-      return sum + light ** 2 / chance;
-    }, 0);
-    const pixels = await shown(scene, samples, {});
-    const mean = pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
-    expect(Math.abs(mean - expected)).toBeLessThan(4 * Math.sqrt((square - expected ** 2) / (samples * pixels.length)));
-  });
-});
-
-/** A matte floor below a light that shines through black quads, which the camera does not see. */
-async function below(opacities: readonly number[], samples: number, add: (scene: Scene) => void = () => undefined) {
-  const scene = createScene();
-  addQuad(scene, 4, 0, lambert(0.5));
-  opacities.forEach((geometry_opacity, i) =>
-    addQuad(scene, 20, 4 + i, {
-      name: `veil ${i}`,
-      parameters: { base_color: [0, 0, 0], specular_weight: 0, geometry_opacity },
-    }),
-  );
-  add(scene);
-  scene.lights.push({ type: 'point', name: 'light', color: [1, 1, 1], intensity: 1000, position: [0, 0, 50] });
-  return shown(scene, samples, { maxDepth: 2 });
-}
-
-describe('light samples', () => {
-  it('are weakened by what surfaces let through, without noise', async () => {
-    const [open, veiled] = [await below([], 1), await below([0.25, 0.5, 0.75], 1)];
-    // The camera's ray is the same, so is everything but the factor of 3/4 · 1/2 · 1/4.
-    for (const [i, value] of veiled.entries()) expect(value / open[i]! / (3 / 32)).toBeCloseTo(1, 5);
-  });
-
-  it.each([
-    ['many surfaces', [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5], () => undefined],
-    // Smooth thin walls are passed one by one, and chance decides about opacity.
-    [
-      'glass between',
-      [0.5, 0.75],
-      (scene: Scene) =>
-        addQuad(scene, 20, 4.5, {
-          name: 'wall',
-          parameters: {
-            transmission_weight: 1,
-            specular_weight: 0,
-            specular_roughness: 0,
-            geometry_thin_walled: true,
-          },
-        }),
-    ],
-  ] as const)('are weakened on average: %s', async (_, opacities, add) => {
-    const samples = 1024;
-    const [open, veiled] = [await below([], 1), await below(opacities, samples, add as (scene: Scene) => void)];
-    const sum = (values: readonly number[]) => values.reduce((a, b) => a + b, 0);
-    const passed = opacities.reduce((left, opacity) => left * (1 - opacity), 1);
-    // Of independent decisions about everything.
-    const error = Math.sqrt((passed * (1 - passed)) / (samples * veiled.length));
-    expect(Math.abs(sum(veiled) / sum(open) - passed)).toBeLessThan(4 * error);
   });
 });
