@@ -1,8 +1,11 @@
+import { buildBlas, type TreeBuilder } from '@glanz/bvh';
+import { bestSplit } from '@glanz/bvh/best';
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Scene } from '@glanz/scene';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { PathTracer, type HierarchyBuilder, type PathTracerOptions } from '../../src/index';
 import { addQuad, camera, createScene } from '../scenes';
+import { random } from '../tree-lights';
 
 let device: GPUDevice;
 beforeAll(async () => {
@@ -105,5 +108,38 @@ describe('opacity', () => {
     const pixels = await veils([0.25], samples, { sampler: 'independent' });
     const mean = pixels.reduce((sum, value) => sum + value, 0) / pixels.length;
     expect(Math.abs(mean - 0.75)).toBeLessThan(4 * Math.sqrt((0.25 * 0.75) / (samples * pixels.length)));
+  });
+
+  it('is decided once where a tree has a triangle in several leaves', async () => {
+    // Among small triangles, long and thin ones in all directions, which `bestSplit` cuts into pieces.
+    const next = random(5);
+    const between = (a: number, b: number) => a + (b - a) * next();
+    const positions = new Float32Array(9 * 60);
+    for (let t = 0; t < 60; t++)
+      for (let k = 0; k < 3; k++) {
+        const at = between(-0.9, 0.9);
+        positions[9 * t + k] = at;
+        positions[9 * t + 3 + k] = t < 12 ? between(-0.9, 0.9) : at + between(-0.1, 0.1);
+        positions[9 * t + 6 + k] = positions[9 * t + 3 + k]! + between(0.05, 0.1);
+      }
+    const indices = Uint32Array.from({ length: 180 }, (_, i) => i);
+    const film = async (builder?: TreeBuilder) => {
+      let inLeaves = 0;
+      const hierarchies: HierarchyBuilder = {
+        buildBlas: async (mesh) => {
+          const blas = buildBlas(mesh, builder && { builder });
+          inLeaves = blas.triangleIndices.length;
+          return blas;
+        },
+      };
+      const pixels = await veils([], 64, { hierarchies, bvhBuilder: 'cpu' }, 0, (scene) => {
+        addQuad(scene, 1, 0, { name: 'veil', parameters: { base_color: [0.2, 0.5, 0.8], geometry_opacity: 0.5 } });
+        scene.meshes[0] = { name: 'needles', positions, indices };
+      });
+      return { pixels, inLeaves };
+    };
+    const [whole, cut] = [await film(), await film(bestSplit)];
+    expect([whole.inLeaves, cut.inLeaves > 60]).toEqual([60, true]);
+    expect(cut.pixels).toEqual(whole.pixels);
   });
 });
