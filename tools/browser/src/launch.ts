@@ -2,15 +2,13 @@ import { existsSync, mkdirSync, mkdtempSync, renameSync, rmSync, writeFileSync }
 import { dirname } from 'node:path';
 import type { LaunchOptions } from '@playwright/test';
 
-// The first five are needed, or a canvas stays blank on the software GPU.
+// All five, or a canvas stays blank on the software GPU.
 const GPU_FLAGS = [
   '--enable-unsafe-webgpu',
   '--use-webgpu-adapter=swiftshader',
   '--enable-features=Vulkan',
   '--use-vulkan=swiftshader',
   '--use-angle=swiftshader',
-  // Text and boxes are painted on the CPU: on the software GPU a page takes twice as long to open and to be photographed.
-  '--disable-gpu-rasterization',
 ];
 const QUIET_FLAGS = [
   '--disable-quic',

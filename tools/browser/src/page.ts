@@ -116,18 +116,6 @@ async function serveBuilt(config: InlineConfig, headers: Record<string, string> 
   const { preview } = await import('vite');
   const server = await preview({
     ...config,
-    // Packing megabytes for a browser of the same machine takes both of them time.
-    plugins: [
-      {
-        name: 'no-compression',
-        configurePreviewServer({ middlewares }) {
-          middlewares.use((request, _response, next) => {
-            delete request.headers['accept-encoding'];
-            next();
-          });
-        },
-      },
-    ],
     logLevel: 'error',
     preview: { host: '127.0.0.1', port: 4273, strictPort: false, open: false, headers },
   });
