@@ -1,8 +1,7 @@
-import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { expectNoGpuErrors, nullDevice, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { DenoiseError, Denoiser, type DenoiseImages, type KernelFamily } from '../src/index';
 import { bindImages, denoiseOnGpu, different, download, outputBuffer, upload } from './gpu';
-import { nullDevice } from './null-device';
 import { randomImages, randomNetwork } from './random-network';
 
 let device: GPUDevice;

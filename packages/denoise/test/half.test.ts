@@ -1,10 +1,9 @@
-import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { expectNoGpuErrors, nullDevice, testDevice } from '@glanz/gpu';
 import { compose } from '@glanz/wgsl/compose';
 import { afterEach, describe, expect, it } from 'vitest';
 import { Denoiser } from '../src/index';
 import tensor from '../src/kernels/tensor.wesl';
 import { denoiseOnGpu } from './gpu';
-import { nullDevice } from './null-device';
 import { CHECKED_CASES, differences, imagesOf, tolerances, weightsOf } from './oracle';
 import { randomImages, randomNetwork } from './random-network';
 

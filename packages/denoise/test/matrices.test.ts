@@ -1,4 +1,4 @@
-import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { expectNoGpuErrors, nullDevice, testDevice } from '@glanz/gpu';
 import { compose } from '@glanz/wgsl/compose';
 import { afterEach, describe, expect, it } from 'vitest';
 import { concatenate, convolveChannel, pool, upsample, type Planes } from '../src/cpu/layers';
@@ -12,7 +12,6 @@ import { halfBits, packMatrices } from '../src/kernels/pack-matrices';
 import { quadsOf } from '../src/pack-weights';
 import { download } from './gpu';
 import { Denoiser } from '../src/index';
-import { nullDevice } from './null-device';
 import { numbersFrom, randomNetwork } from './random-network';
 
 /** Of NVIDIA's GPUs. */

@@ -1,5 +1,5 @@
 import { setFlagsFromString } from 'node:v8';
-import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { expectNoGpuErrors, nullDevice, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it, test, vi } from 'vitest';
 import { denoiseOnCpu } from '../src/cpu/index';
 import { DenoiseError, Denoiser, type DenoiserInput, type DenoiserOptions } from '../src/index';
@@ -9,7 +9,6 @@ import { compileWasm, kernelBytes, type WasmKernels } from '../src/wasm/kernels'
 import { bytesOf, planWasm } from '../src/wasm/plan';
 import { bindImages, denoiseOnGpu, different, TWIN_CASES } from './gpu';
 import { CHECKED_CASES, MISSING, differences, imagesOf, tolerances, weightsOf } from './oracle';
-import { nullDevice } from './null-device';
 import { numbersFrom, randomImages, randomNetwork } from './random-network';
 
 let device: GPUDevice;

@@ -1,11 +1,16 @@
+import { nullDevice } from '@glanz/gpu';
 import { requestDevice } from '../src/index';
 import { createGpu } from '../src/node';
 
-/** A device of its own that is lost as a buffer with this label is made. */
-export async function losingDevice(label: string): Promise<GPUDevice> {
-  const { gpu } = await createGpu({ software: 'only' });
-  const own = await requestDevice({ gpu });
-  return new Proxy(own, {
+/**
+ * A device of its own that is lost as a buffer with this label is made.
+ * @param computes Whether it computes what comes before; without, it compiles nothing, and its buffers hold anything.
+ */
+export async function losingDevice(label: string, computes = false): Promise<GPUDevice> {
+  const { device } = computes
+    ? { device: await requestDevice({ gpu: (await createGpu({ software: 'only' })).gpu }) }
+    : await nullDevice();
+  return new Proxy(device, {
     get: (target, name) => {
       const value = Reflect.get(target, name) as unknown;
       if (name === 'createBuffer')

@@ -1,2 +1,3 @@
 export { expectNoGpuErrors, testDevice, type TestDeviceOptions } from './device';
+export { nullDevice } from './null-device';
 export { runCompute, type ComputeInput, type ComputeOptions } from './run-compute';

@@ -164,7 +164,6 @@ it('poses whose matrices single precision cannot hold are left to the CPU', () =
   expect(packPose(poseMesh(rig, pose).pose as MeshPose)).toBeUndefined();
 });
 
-// Each device compiles its programs: the last buffers are made once they are there.
 it.each(['glanz pose bind', 'glanz pose cost read'])(
   'reports a device that is lost at "%s", and keeps no memory',
   async (label) => {
