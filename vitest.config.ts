@@ -156,7 +156,7 @@ export default defineConfig({
         'three',
         'denoise-weights',
         'create-glanz',
-      ].map((name) => project(name, `packages/${name}`, { isolated: false })),
+      ].map((name) => project(name, `packages/${name}`)),
       ...split('cli', 'packages/cli', CLI_ISOLATED),
       ...split('renderer', 'packages/renderer', RENDERER_ISOLATED),
       project('docs', 'apps/docs'),
