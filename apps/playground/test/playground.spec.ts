@@ -348,15 +348,17 @@ test.describe('one page', () => {
 
   test('a change that needs other shaders: a matt wall becomes a mirror', async () => {
     await tab(page, 'Material');
-    // A piece of the right wall, near the back wall.
-    const wall = async () => {
+    const piece = async (x: number, y: number, width: number, height: number) => {
       const box = (await canvasOf(page).boundingBox())!;
-      return (
-        await pixelsOf(page, await page.screenshot({ clip: { x: box.x + 430, y: box.y + 220, width: 20, height: 60 } }))
-      ).mean;
+      const clip = { x: box.x + x, y: box.y + y, width, height };
+      return (await pixelsOf(page, await page.screenshot({ clip }))).mean;
     };
+    // Pieces of the right wall: near the back wall, and at its upper end.
+    const wall = () => piece(430, 220, 20, 60);
+    const top = () => piece(455, 65, 20, 10);
     const matt = await wall();
     expect(matt[1]).toBeGreaterThan(1.3 * matt[0]);
+    expect((await top())[1]).toBeGreaterThan(20);
     await page.locator('#material').selectOption({ label: 'green' });
     await page.locator('#parameter-base_color').fill('#ffffff');
     for (const [name, value] of [
@@ -368,20 +370,18 @@ test.describe('one page', () => {
       await box.fill(value!);
       await box.press('Tab');
     }
-    // It shows the back wall now, which is white in the warm light: less blue than green, less green than
-    // red.
+    // It shows the back wall now, which is white in the warm light: less blue than green, less green than red. A matt
+    // white wall is so, too, but not dark at its upper end, where the mirror shows the room's open side.
     await expect
       .poll(async () => {
         await finished(page);
         const [r, g, b] = await wall();
-        return r > 1.1 * g && g > 1.1 * b && r > 60;
+        return r > 1.1 * g && g > 1.1 * b && r > 60 && (await top())[0] < 0.5 * r;
       })
       .toBe(true);
   });
 
   test('dropped models: broken ones are reported in a line and the former scene stays, a good one takes its place', async () => {
-    // The image that the test before has begun.
-    await finished(page);
     const before = await photograph(canvasOf(page));
     const good = triangle([0.05, 0.1, 0.9]);
     const bad: [name: string, bytes: Buffer, code: string][] = [
