@@ -11,7 +11,7 @@ export interface TemporalFilterOptions {
    * follow light that changes. Default 3.
    */
   readonly clampSigmas?: number;
-  /** Whether edges are smoothed over frames, too. Default true. */
+  /** Whether edges and fine textures are smoothed over frames, too. Default true. */
   readonly antialias?: boolean;
   /** Passes of the spatial filter, 0 to 5; the last one reaches over 2^(passes + 1) pixels. Default 4. */
   readonly passes?: number;

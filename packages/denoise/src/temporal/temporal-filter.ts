@@ -76,7 +76,7 @@ type Settings = Omit<TemporalFilterOptions, 'signal'>;
  *   around a pixel has changed by more than its noise, the history gets as much brighter or darker, and where the
  *   differences of neighbours from their history are alike, as those of noise are not, it counts for less. It is kept
  *   within the spread of the pixel's present neighbours.
- * - Edges of surfaces are smoothed by the image that was shown before, within the colours around each pixel.
+ * - Edges and fine textures are smoothed by the image that was shown before, within the colours around each pixel.
  * - A spatial filter by the variance of that (Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering") takes the
  *   noise that is left; where illumination has none, it changes nothing.
  *
