@@ -274,8 +274,13 @@ test.describe('one page', () => {
     expect(blue.cells[3]![2]).toBeGreaterThan(1.2 * blue.cells[3]![0]);
 
     await restarting(page, () => page.getByRole('button', { name: 'Reset this material' }).click());
-    const again = await photograph(canvasOf(page));
-    expect(Math.abs(again.cells[3]![0] - before.cells[3]![0])).toBeLessThan(2);
+    // The colour may start the film twice, as it is entered and as it is done with.
+    await expect
+      .poll(async () => {
+        await finished(page);
+        return Math.abs((await photograph(canvasOf(page))).cells[3]![0] - before.cells[3]![0]);
+      })
+      .toBeLessThan(2);
   });
 
   test('drag, wheel and keys move the camera; reset brings the first view back', async () => {
@@ -371,17 +376,20 @@ test.describe('one page', () => {
       await box.press('Tab');
     }
     // It shows the back wall now, which is white in the warm light: less blue than green, less green than red. A matt
-    // white wall is so, too, but not dark at its upper end, where the mirror shows the room's open side.
+    // white wall is so, too, but its upper end has 0.46 of the light there, and that of the mirror, which shows the
+    // room's open side, 0.24.
     await expect
       .poll(async () => {
         await finished(page);
         const [r, g, b] = await wall();
-        return r > 1.1 * g && g > 1.1 * b && r > 60 && (await top())[0] < 0.5 * r;
+        return r > 1.1 * g && g > 1.1 * b && r > 60 && (await top())[0] < 0.35 * r;
       })
       .toBe(true);
   });
 
   test('dropped models: broken ones are reported in a line and the former scene stays, a good one takes its place', async () => {
+    // The image that the test before has begun.
+    await finished(page);
     const before = await photograph(canvasOf(page));
     const good = triangle([0.05, 0.1, 0.9]);
     const bad: [name: string, bytes: Buffer, code: string][] = [
