@@ -76,8 +76,9 @@ export const best: TreeBuilder = {
  * As {@link best}, with triangles cut into pieces whose boxes would be mostly empty: rays visit half as much in a
  * mesh of long, thin triangles in all directions, and little less than with `best` in others. A triangle may then be
  * in several leaves, so `triangleIndices` may be longer than the mesh: closest hits, any hits and distances stay
- * the same, but queries for all hits or overlaps can report such a triangle more than once, and `refitBlas` fits its
- * boxes to the whole triangle.
+ * the same, but queries for all hits or overlaps can report such a triangle more than once, `bvh_accept` can be asked
+ * about it more than once (let it decide by the triangle's place in the mesh), and `refitBlas` fits its boxes to the
+ * whole triangle.
  */
 export const bestSplit: TreeBuilder = {
   name: 'best-split',
