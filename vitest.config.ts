@@ -147,7 +147,6 @@ export default defineConfig({
         'formats',
         'cad',
         'tonemap',
-        'denoise',
         'image',
         'farm',
         'viewer',
@@ -157,6 +156,8 @@ export default defineConfig({
         'denoise-weights',
         'create-glanz',
       ].map((name) => project(name, `packages/${name}`)),
+      // It sets flags of V8.
+      ...split('denoise', 'packages/denoise', ['wasm']),
       ...split('cli', 'packages/cli', CLI_ISOLATED),
       ...split('renderer', 'packages/renderer', RENDERER_ISOLATED),
       project('docs', 'apps/docs'),

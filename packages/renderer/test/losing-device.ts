@@ -7,9 +7,9 @@ import { createGpu } from '../src/node';
  * @param computes Whether it computes what comes before; without, it compiles nothing, and its buffers hold anything.
  */
 export async function losingDevice(label: string, computes = false): Promise<GPUDevice> {
-  const { device } = computes
-    ? { device: await requestDevice({ gpu: (await createGpu({ software: 'only' })).gpu }) }
-    : await nullDevice();
+  const device = computes
+    ? await requestDevice({ gpu: (await createGpu({ software: 'only' })).gpu })
+    : (await nullDevice()).device;
   return new Proxy(device, {
     get: (target, name) => {
       const value = Reflect.get(target, name) as unknown;
