@@ -642,7 +642,10 @@ async function serveDenoiser(page: Page): Promise<void> {
   });
 }
 
-/** Whether the frame that follows a change of the exposure, which is of no concern to a denoiser, shows it. */
+/**
+ * Whether the frame that follows a change of the exposure, which is of no concern to a denoiser, shows it.
+ * No frame follows an exposure that the element has already.
+ */
 const showsDenoised = (page: Page, exposure: number) =>
   page.evaluate(
     (value) =>
@@ -654,13 +657,20 @@ const showsDenoised = (page: Page, exposure: number) =>
     exposure,
   );
 
+/** Waits until frames show the denoiser. */
+async function becomesDenoised(page: Page): Promise<void> {
+  let exposure = 1;
+  await expect.poll(() => showsDenoised(page, (exposure += 1 / 64))).toBe(true);
+}
+
 const setDenoise = (page: Page, address: string | null) =>
   page.evaluate((value) => void (document.querySelector('glanz-viewer')!.denoise = value), address);
 
 test('images are denoised by the module that `denoise` names, and say so', async ({ page }) => {
   await serveDenoiser(page);
   await open(page, { denoise: 'denoise.js', samples: '2' });
-  await expect.poll(() => showsDenoised(page, 0.5)).toBe(true);
+  await becomesDenoised(page);
+  expect(await showsDenoised(page, 0.5)).toBe(true);
   const saved = () =>
     page.evaluate(async () =>
       new TextDecoder('latin1').decode(await (await document.querySelector('glanz-viewer')!.toBlob()).arrayBuffer()),
@@ -711,7 +721,7 @@ test('a denoiser that does not load is a warning, and the image is there with it
   await page.evaluate(() => {
     for (const address of ['none.js', 'grey.js']) document.querySelector('glanz-viewer')!.denoise = address;
   });
-  await expect.poll(() => showsDenoised(page, 0.25)).toBe(true);
+  await becomesDenoised(page);
   expect(await warnings()).toHaveLength(3);
   complaints = complaints.filter((text) => !text.includes('404'));
 });
