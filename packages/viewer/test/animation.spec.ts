@@ -75,7 +75,7 @@ test('morph targets deform meshes; the rest pose comes back, and survives a loss
   await expect.poll(sides).toEqual(['white', 'green']);
   // The tracer's own scene is posed: another device shows the same.
   await page.evaluate(() => window.viewer.device!.destroy());
-  await expect.poll(() => page.evaluate(() => window.heard.some(({ type }) => type === 'state'))).toBe(true);
+  await expect.poll(() => heard(page, 'device-restored')).toHaveLength(1);
   await expect.poll(sides).toEqual(['white', 'green']);
   await page.evaluate(async () => void ((await window.viewer.animation()).name = undefined));
   await expect.poll(sides).toEqual(['red', 'green']);

@@ -210,6 +210,8 @@ test('sizes of zero, one pixel and millions of pixels in sequence: the last one 
       Object.assign(canvas.style, { width: `${width}px`, height: `${height}px` });
       await new Promise((resolve) => setTimeout(resolve, 120));
     }
+    // The first size is the last one: the viewer must have been told of it again.
+    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
   }, sizes);
   await expect
     .poll(() => page.evaluate(() => [window.viewer.tracer!.width, window.viewer.tracer!.height]))
@@ -235,6 +237,8 @@ test('in a tab that is hidden repeatedly nothing is submitted, and the image com
     let late = 0;
     for (let i = 0; i < 20; i++) {
       faults.hide(true);
+      // A batch of the GPU is waited for, however long it takes, and drawn.
+      while (window.viewer.state !== 'hidden') await new Promise((resolve) => setTimeout(resolve, 5));
       // What was on its way may still come; a software GPU is slow.
       for (let calm = 0, seen = -1; calm < 5; seen = faults.count['submit'] ?? 0) {
         await new Promise((resolve) => setTimeout(resolve, 50));

@@ -65,20 +65,25 @@ export async function open(page: Page, origin: string, options: ViewerOptions = 
   if (options.samples === undefined || options.samples < 100) await done(page);
 }
 
+/** Waits until the image is done as it is now: the state is still that of the former one right after a change. */
 export async function done(page: Page): Promise<void> {
   // In the page itself: polls of Playwright come up to a second late, in which a core is idle.
   await page.evaluate(async () => {
     const end = performance.now() + 55_000;
-    while (window.viewer.state !== 'done' && performance.now() < end)
+    while ((window.viewer.state !== 'done' || window.viewer.sampleCount === 0) && performance.now() < end)
       await new Promise((resolve) => setTimeout(resolve, 30));
   });
-  await expect.poll(() => page.evaluate(() => window.viewer.state), { message: 'the image is done' }).toBe('done');
+  const state = () => page.evaluate(() => [window.viewer.state, window.viewer.sampleCount > 0]);
+  await expect.poll(state, { message: 'the image is done' }).toEqual(['done', true]);
 }
 export const canvas = (page: Page) => page.locator('canvas');
 export const heard = (page: Page, type: string) =>
   page.evaluate((expected) => window.heard.filter((event) => event.type === expected), type);
+/** Waits until the screen shows what was to be drawn with its next frame. */
+export const settled = (page: Page) =>
+  page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 export const shot = async (page: Page) => {
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await settled(page);
   // The ring around a canvas that has the keyboard is no part of the image.
   return photograph(canvas(page), 'canvas { outline: none }');
 };

@@ -4,7 +4,7 @@ import { hdr, injectFaults, pixelsOf, servePage, watch, type Served } from '@gla
 import { test } from '@glanz/browser/shared-device';
 import { expect, type Page } from '@playwright/test';
 import type { ViewerOptions } from '@glanz/viewer';
-import { canvas, done, front, heard, model, open as openAt, shot, sky } from './open';
+import { canvas, done, front, heard, model, open as openAt, settled, shot, sky } from './open';
 
 let served: Served;
 test.beforeAll(async ({ deviceHost }) => {
@@ -301,6 +301,7 @@ test('variant, material, exposure, environment and background reach the image', 
   expect(turned! - set!).toBeLessThan(64 * 32 * 3);
   await page.evaluate(() => void (window.viewer.background = 'transparent'));
   await done(page);
+  await settled(page);
   const corner = (await pixelsOf(page, await page.screenshot({ clip: { x: 2, y: 2, width: 8, height: 8 } }))).mean;
   expect(corner.map(Math.round)).toEqual([0x20, 0x40, 0x80]);
 });
