@@ -1,15 +1,5 @@
 import { fileURLToPath } from 'node:url';
-import {
-  checkAccessibility,
-  hdr,
-  injectFaults,
-  photograph,
-  pixelsOf,
-  quads,
-  servePage,
-  watch,
-  type Served,
-} from '@glanz/browser';
+import { checkAccessibility, hdr, injectFaults, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
 import { test } from '@glanz/browser/shared-device';
 import { expect, type Page } from '@playwright/test';
 import { build, type BuildOptions } from 'esbuild';
@@ -83,18 +73,28 @@ const put = (page: Page, attributes: Record<string, string>, children = '') =>
     children,
   ] as const);
 const state = (page: Page) => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state);
+/** Waits until the image is done as it is now: the state is still that of the former one right after a change. */
 async function done(page: Page): Promise<void> {
   // In the page itself: polls of Playwright come up to a second late, in which a core is idle.
   await page.evaluate(async () => {
+    const isDone = () => {
+      const { viewer } = document.querySelector('glanz-viewer') ?? {};
+      return viewer?.state === 'done' && viewer.sampleCount > 0;
+    };
     const end = performance.now() + 55_000;
-    while (document.querySelector('glanz-viewer')?.viewer?.state !== 'done' && performance.now() < end)
-      await new Promise((resolve) => setTimeout(resolve, 30));
+    while (!isDone() && performance.now() < end) await new Promise((resolve) => setTimeout(resolve, 30));
   });
-  await expect.poll(() => state(page), { message: 'the image is done' }).toBe('done');
+  const image = () =>
+    page.evaluate(() => {
+      const { viewer } = document.querySelector('glanz-viewer') ?? {};
+      return [viewer?.state, (viewer?.sampleCount ?? 0) > 0];
+    });
+  await expect.poll(image, { message: 'the image is done' }).toEqual(['done', true]);
 }
 const shot = async (page: Page) => {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  return photograph(viewer(page));
+  // Without the progress bar, which fades for half a second.
+  return pixelsOf(page, await viewer(page).screenshot({ animations: 'disabled' }));
 };
 
 async function open(page: Page, attributes: Record<string, string> = {}, children = ''): Promise<void> {
@@ -109,7 +109,8 @@ test('a model by markup alone, over the page, under a strict content security po
   expect(cells[3]![0]).toBeGreaterThan(1.5 * cells[3]![1]);
   expect(cells[5]![1]).toBeGreaterThan(1.5 * cells[5]![0]);
   // Behind it is the page.
-  const corner = await pixelsOf(page, await page.screenshot({ clip: { x: 2, y: 42, width: 8, height: 8 } }));
+  const clip = { x: 2, y: 42, width: 8, height: 8 };
+  const corner = await pixelsOf(page, await page.screenshot({ clip, animations: 'disabled' }));
   expect(corner.mean.map(Math.round)).toEqual([0x20, 0x40, 0x80]);
   expect(await heard(page, 'load')).toHaveLength(1);
   expect(await heard(page, 'converged')).toEqual([expect.objectContaining({ samples: 8 })]);
@@ -688,8 +689,7 @@ test('images are denoised by the module that `denoise` names, and say so', async
   await page.evaluate(() => document.querySelector('glanz-viewer')!.remove());
   await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST, samples: '2', 'exposure-ev': '0.5' });
   await done(page);
-  // The progress bar may still fade over the image.
-  await expect.poll(async () => (await shot(page)).cells).toEqual(film.cells);
+  expect((await shot(page)).cells).toEqual(film.cells);
   expect(await heard(page, 'warning')).toEqual([]);
   expect(await heard(page, 'error')).toEqual([]);
 });
