@@ -59,7 +59,10 @@ test('a component among the children of a Canvas path-traces what they show, and
     window.hide();
   });
   await expect(page.locator('canvas')).toHaveCount(0);
-  expect(await page.evaluate(() => (window as unknown as { last: ThreePathTracer }).last.destroyed)).toBe(true);
+  // React runs the effects' ends after it has removed the elements.
+  await expect
+    .poll(() => page.evaluate(() => (window as unknown as { last: ThreePathTracer }).last.destroyed))
+    .toBe(true);
   // fiber's own clock is deprecated in this version of three.
   expect(complaints.filter((complaint) => !/GPU stall|THREE.Clock/.test(complaint))).toEqual([]);
 });
