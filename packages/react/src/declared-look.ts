@@ -27,6 +27,8 @@ export class LookKeeper {
   #applied: DeclaredLook = {};
   /** Values of the file, by material and parameter; `undefined`: it has none, and the default counts. */
   readonly #parameters = new Map<string, Record<string, unknown>>();
+  /** When all edits so far have begun: one that waits for defaults holds up those that follow. */
+  #begun: Promise<void> = Promise.resolve();
   /** Whether the file shows its parts, by index. */
   readonly #shown: readonly boolean[];
 
@@ -62,8 +64,9 @@ export class LookKeeper {
     for (const parameter of changed) if (!(parameter in kept)) kept[parameter] = own?.[parameter];
     const edit = Object.fromEntries(changed.map((parameter) => [parameter, now[parameter] ?? kept[parameter]]));
     const missing = changed.filter((parameter) => edit[parameter] === undefined);
-    void (missing.length === 0 ? Promise.resolve(edit) : withDefaults(edit, missing))
-      .then((whole) => this.#viewer.setMaterial(name, whole as MaterialEdit))
+    const whole = missing.length === 0 ? edit : withDefaults(edit, missing);
+    this.#begun = Promise.all([whole, this.#begun])
+      .then(([all]) => void this.#viewer.setMaterial(name, all as MaterialEdit).catch(this.#report))
       .catch(this.#report);
   }
 
