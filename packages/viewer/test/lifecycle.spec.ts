@@ -210,7 +210,7 @@ test('sizes of zero, one pixel and millions of pixels in sequence: the last one 
       Object.assign(canvas.style, { width: `${width}px`, height: `${height}px` });
       await new Promise((resolve) => setTimeout(resolve, 120));
     }
-    // The first size is the last one: the viewer must have been told of it again.
+    // The first size is the last one: the viewer must have seen it again.
     await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
   }, sizes);
   await expect
