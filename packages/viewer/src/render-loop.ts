@@ -310,9 +310,11 @@ export class RenderLoop {
       await this.#fit(tracer, full, depth, 1 / plan.divisor);
       if (tracer !== this.#tracer) return;
       this.#dirtyCamera = false;
-      tracer
-        .setCamera(this.#host.camera(this.#film[0] / this.#film[1]))
-        .catch((error: unknown) => this.#engine.isCurrent(tracer) && this.#host.error(error));
+      tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).then(
+        // Kernels of another kind of camera came late and cleared the film.
+        () => this.#fresh && this.#tracer?.samples === 0 && this.#edited(),
+        (error: unknown) => this.#engine.isCurrent(tracer) && this.#host.error(error),
+      );
       this.#settle = now + settleMs;
     }
     this.edits.apply(() => this.#edited());
@@ -374,7 +376,7 @@ export class RenderLoop {
     await this.#denoise(tracer, signal, true);
     if (tracer !== this.#tracer || signal.aborted || this.#moving) return;
     // Ended by kernels that came late and restarted the film: once more.
-    if (!this.#fresh && tracer.samples === 0) return;
+    if (tracer.samples === 0) return;
     // Samples that were on their way when an earlier run was interrupted were not reported.
     this.#fresh = true;
     if (this.#paused) return this.redraw();

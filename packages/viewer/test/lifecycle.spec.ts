@@ -4,6 +4,13 @@ import { test } from '@glanz/browser/shared-device';
 import { expect } from '@playwright/test';
 import { done, heard, model, open, shot } from './open';
 
+declare global {
+  interface Window {
+    gate?: Promise<void>;
+    openGate: () => void;
+  }
+}
+
 let served: Served;
 test.beforeAll(async ({ deviceHost }) => {
   served = await servePage(fileURLToPath(new URL('page', import.meta.url)));
@@ -304,4 +311,38 @@ test('a GPU error outside of any call is reported by the error event, and the vi
   ]);
   await page.evaluate(() => window.viewer.setMaterial('left', { base_color: [0.9, 0.9, 0.02] }));
   await done(page);
+});
+
+test('a camera whose kernel comes after the image is done is shown then', async ({ page }) => {
+  // Pipelines wait while there is a gate.
+  await page.addInitScript(() => {
+    window.ownDevices = true;
+    const { createComputePipelineAsync: create } = GPUDevice.prototype;
+    GPUDevice.prototype.createComputePipelineAsync = async function (descriptor) {
+      await window.gate;
+      return create.call(this, descriptor);
+    };
+  });
+  await open(page, served.origin);
+  const before = await shot(page);
+  // Both squares, at the left end of a wide view.
+  const camera = { type: 'orthographic', name: 'wide', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 5, 1] };
+  await page.evaluate((wide) => {
+    window.gate = new Promise((resolve) => (window.openGate = resolve));
+    const moved = new Promise<void>((resolve) => {
+      const off = window.viewer.on('state', ({ state }) => state === 'moving' && (off(), resolve()));
+    });
+    window.viewer.setCamera({ ...wide, xmag: 6, ymag: 6 } as never, { immediate: true });
+    return moved;
+  }, camera);
+  await done(page);
+  expect((await shot(page)).cells).toEqual(before.cells);
+  await page.evaluate(() => window.openGate());
+  const difference = async () => {
+    const { cells } = await shot(page);
+    return Math.max(...cells.flat().map((code, i) => Math.abs(code - before.cells.flat()[i]!)));
+  };
+  await expect.poll(difference).toBeGreaterThan(20);
+  await done(page);
+  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(6);
 });
