@@ -4,6 +4,7 @@ import { renderImage } from '@glanz/viewer/render-image';
 import type { Context } from '../ui/context';
 import { showRenderDialog, type RenderFormat, type RenderRequest } from '../ui/render-dialog';
 import { fileName, imageAsExr, imageAsPng, type SavedBackdrop } from './save';
+import { whilePaused } from './while-paused';
 
 const FORMATS: readonly RenderFormat[] = [
   { id: 'png', title: 'PNG, 8 bits', extension: 'png', type: 'image/png', alpha: true },
@@ -61,9 +62,7 @@ export function openRenderDialog(context: Context, backdropFor: BackdropFor, for
       const now = store.state.background;
       const composed = !transparent && (now === 'color' || now === 'blurred');
       const backdrop = composed ? await backdropFor(width / height) : undefined;
-      const { paused } = session;
-      session.setPaused(true);
-      try {
+      return whilePaused(session, async () => {
         const tracer = await renderImage(session.engine, {
           ...request,
           background: transparent || composed ? 'transparent' : 'environment',
@@ -73,9 +72,7 @@ export function openRenderDialog(context: Context, backdropFor: BackdropFor, for
         } finally {
           tracer.destroy();
         }
-      } finally {
-        session.setPaused(paused);
-      }
+      });
     },
   });
 }

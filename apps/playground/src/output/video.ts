@@ -17,6 +17,7 @@ import { orbitOf } from '../viewer/camera-rig';
 import { applyPose, posedScene } from '../viewer/pose';
 import type { BackdropFor } from './render';
 import { fileName, over } from './save';
+import { whilePaused } from './while-paused';
 
 /** Poses the video's tracers by animations, which are called by their indices here. */
 function animationsOf({ opened, store }: Context, poser: () => Poser | undefined): VideoAnimations {
@@ -75,42 +76,40 @@ export function openVideoDialog(context: Context, backdropFor: BackdropFor): voi
     views: store.state.walk.length,
     animations: request.kind === 'files' ? (scene.animations ?? []) : [],
     clip: store.state.clip ?? 0,
-    record: async (video) => {
-      const { paused } = session;
-      let poser: Poser | undefined;
-      const makePoser = () => (request.kind === 'files' ? (poser ??= new Poser(request)) : undefined);
-      session.setPaused(true);
-      try {
-        const { background } = store.state;
-        const { width, height, fps, samples, shutter, type, seconds, signal, onProgress, onFrame } = video;
-        const composed = background === 'color' || background === 'blurred';
-        return await recordVideo(sourceOf(context, makePoser), {
-          path: pathOf(video, context),
-          width,
-          height,
-          fps,
-          samples,
-          shutter,
-          seconds,
-          type,
-          signal,
-          onProgress,
-          onFrame,
-          // A video has no alpha channel.
-          ...(composed ? {} : { background: 'environment' }),
-          ...(composed
-            ? {
-                compose: async ({ data, camera }) => {
-                  const backdrop = await backdropFor(width / height, camera);
-                  if (backdrop) over(data, width, height, backdrop);
-                },
-              }
-            : {}),
-        });
-      } finally {
-        poser?.destroy();
-        session.setPaused(paused);
-      }
-    },
+    record: (video) =>
+      whilePaused(session, async () => {
+        let poser: Poser | undefined;
+        const makePoser = () => (request.kind === 'files' ? (poser ??= new Poser(request)) : undefined);
+        try {
+          const { background } = store.state;
+          const { width, height, fps, samples, shutter, type, seconds, signal, onProgress, onFrame } = video;
+          const composed = background === 'color' || background === 'blurred';
+          return await recordVideo(sourceOf(context, makePoser), {
+            path: pathOf(video, context),
+            width,
+            height,
+            fps,
+            samples,
+            shutter,
+            seconds,
+            type,
+            signal,
+            onProgress,
+            onFrame,
+            // A video has no alpha channel.
+            ...(composed ? {} : { background: 'environment' }),
+            ...(composed
+              ? {
+                  compose: async ({ data, camera }) => {
+                    const backdrop = await backdropFor(width / height, camera);
+                    if (backdrop) over(data, width, height, backdrop);
+                  },
+                }
+              : {}),
+          });
+        } finally {
+          poser?.destroy();
+        }
+      }),
   });
 }
