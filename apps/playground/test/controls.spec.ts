@@ -149,7 +149,8 @@ test('an animation poses the model: its time moves a part, edits stay, and rest 
 test('while the user turns the model a small preview keeps up on the same canvas; the image in full takes over, and ends the same', async ({
   page,
 }) => {
-  await open(page, 'model=cornell-box&scale=0.125&samples=4&max-depth=3');
+  // So many pixels that a frame of all of them takes longer than a preview may.
+  await open(page, 'model=cornell-box&scale=0.25&samples=4&max-depth=3');
   await finished(page);
   const before = await photograph(imageOf(page));
   const [width, canvas] = await imageOf(page).evaluate(
