@@ -43,6 +43,12 @@ function watchPage(page: Page): string[] {
   return complaints;
 }
 
+/** Waits until a page's controls react: its script takes over what was served, perhaps after the page has loaded. */
+const takenOver = (page: Page) =>
+  page.evaluate(async () => {
+    while (!('__vue_app__' in document.querySelector('#app')!)) await new Promise((resolve) => setTimeout(resolve, 10));
+  });
+
 const WIDTHS = [360, 768, 1280] as const,
   SCHEMES = ['light', 'dark'] as const;
 const LOOKS = WIDTHS.flatMap((width) => SCHEMES.map((scheme) => [width, scheme] as const));
@@ -291,6 +297,7 @@ test('noisy and denoised images are compared by keys and by dragging, and nothin
   const complaints = watchPage(page);
   await page.setViewportSize({ width: 380, height: 900 });
   await page.goto(`${origin}/guide/denoising`);
+  await takenOver(page);
   const frame = page.locator('.compare-frame');
   const slider = frame.getByRole('slider');
   const images = frame.getByRole('img');
@@ -329,6 +336,7 @@ test('noisy and denoised images are compared by keys and by dragging, and nothin
 test('dark and light', async ({ page }) => {
   await page.emulateMedia({ colorScheme: 'light' });
   await page.goto(`${origin}/guide/materials`);
+  await takenOver(page);
   const background = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const light = await background();
   await page.locator('.VPSwitchAppearance').first().click();
@@ -420,6 +428,7 @@ test.describe('live', () => {
     const complaints = watchPage(page);
     await page.setViewportSize({ width: 380, height: 900 });
     await page.goto(`${origin}/openpbr/coat`);
+    await takenOver(page);
     const table = (await readExport('@glanz/openpbr/parameters', 'OPENPBR_PARAMETERS')) as Record<
       string,
       { group: string }
@@ -468,13 +477,19 @@ test('the page about hierarchies builds trees, maps their cost, shows their leve
 }) => {
   const complaints = watchPage(page);
   await page.goto(`${origin}/how/hierarchies`);
+  await takenOver(page);
   const live = page.locator('.live-hierarchy');
   const done = () => expect(live).toHaveAttribute('data-stage', 'done', { timeout: 60_000 });
   const cost = async () => Number(await live.getAttribute('data-cost'));
-  /** Changes a choice and waits for its image. */
+  /** Changes a choice and waits for its image; until that begins, the page is done with the image before. */
   const choose = async (name: string, value: string) => {
+    const begun = await live.evaluateHandle((figure) => {
+      const seen = { change: false };
+      new MutationObserver(() => (seen.change = true)).observe(figure, { attributeFilter: ['data-stage'] });
+      return seen;
+    });
     await live.getByLabel(name).selectOption(value);
-    await expect(live).toHaveAttribute('data-stage', /build|draw|done/);
+    await expect.poll(() => begun.evaluate((seen) => seen.change)).toBe(true);
     await done();
   };
   await expect(live).toHaveAttribute('data-stage', 'idle');
@@ -507,6 +522,7 @@ test('the page about hierarchies builds trees, maps their cost, shows their leve
 
   // Another visit reads what this one has built.
   await page.reload();
+  await takenOver(page);
   await live.getByRole('button', { name: 'Build it here' }).click();
   await done();
   await expect(live).toHaveAttribute('data-source', 'store');
