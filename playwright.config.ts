@@ -1,7 +1,11 @@
 import { existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from '@playwright/test';
-import { launchOptions } from './tools/browser/src/launch';
+import { FAST_COMPILATION, launchOptions } from './tools/browser/src/launch';
+
+const launch = await launchOptions(fileURLToPath(new URL('.cache/browser', import.meta.url)));
+// Programs are compiled as they are for users in `npm test -- --full`.
+if (process.env['GLANZ_FULL'] === undefined) launch.args = [...launch.args!, ...FAST_COMPILATION];
 
 export default defineConfig({
   // Those with the longest files first: what comes last runs alone.
@@ -29,6 +33,6 @@ export default defineConfig({
   reporter: 'list',
   use: {
     viewport: { width: 1280, height: 800 },
-    launchOptions: await launchOptions(fileURLToPath(new URL('.cache/browser', import.meta.url))),
+    launchOptions: launch,
   },
 });

@@ -25,15 +25,22 @@ interface Shared {
 const shared = new Map<string, Shared>();
 
 /**
+ * Compiling is most of the time that tests take on a software GPU, and a fifth of it is Dawn's bounds checks. `npm test
+ * -- --full` compiles them, as do all tests that open GPUs of their own.
+ */
+const TOGGLES = process.env['GLANZ_FULL'] === undefined ? ['disable_robustness'] : [];
+
+/**
  * The GPU to test on: the one that GLANZ_TEST_GPU names, e.g. `nvidia`; else a software GPU, so that tests give the same
  * results on every machine.
  */
 async function findGpu(driver: TestDeviceOptions['driver']): Promise<NodeGpu> {
   const name = process.env['GLANZ_TEST_GPU'];
   if (name) return createGpu({ gpu: name });
-  if (driver !== 'swiftshader') return createGpu({ software: 'only' });
+  const software = { software: 'only', toggles: TOGGLES } as const;
+  if (driver !== 'swiftshader') return createGpu(software);
   // Elsewhere than on x86-64 Linux there may be none.
-  return createGpu({ gpu: 'swiftshader', software: 'only' }).catch(() => createGpu({ software: 'only' }));
+  return createGpu({ gpu: 'swiftshader', ...software }).catch(() => createGpu(software));
 }
 
 /**

@@ -86,8 +86,12 @@ function objection(info: GPUAdapterInfo, options: GpuOptions): string | undefine
   return undefined;
 }
 
-/** Tries the drivers now in effect. Gives a GPU, or a reason. */
-async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | string> {
+/**
+ * Tries the drivers now in effect. Gives a GPU, or a reason.
+ *
+ * @param isPackaged Whether they are those that {@link sources} has switched to, all of them software.
+ */
+async function tryDrivers(dawn: Dawn, options: GpuOptions, isPackaged: boolean): Promise<NodeGpu | string> {
   const requested = options.gpu?.toLowerCase();
   // Listing costs a driver start of its own, so the usual case does without.
   let names: (string | undefined)[] = [undefined];
@@ -106,6 +110,9 @@ async function tryDrivers(dawn: Dawn, options: GpuOptions): Promise<NodeGpu | st
       const gpu = createPinned(dawn, [
         ...(name === undefined ? [] : [`adapter=${name}`]),
         ...(toggles.length === 0 ? [] : [`enable-dawn-features=${toggles.join()}`]),
+        // SwiftShader compiles a store for each element of the constant that clears workgroup memory: a loop in its
+        // place halves the time that the denoiser's programs take to compile.
+        ...(isPackaged ? ['disable-dawn-features=use_vulkan_zero_initialize_workgroup_memory_extension'] : []),
       ]);
       const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
       if (!adapter) continue;
@@ -142,7 +149,7 @@ async function search(options: GpuOptions, user: DriverEnvironment): Promise<Nod
       continue;
     }
     if (driver) switchToDriver(driver);
-    const result = await tryDrivers(dawn, options);
+    const result = await tryDrivers(dawn, options, driver !== undefined);
     if (typeof result !== 'string') {
       if (result.software) pacePolling();
       return result;

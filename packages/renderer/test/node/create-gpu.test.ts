@@ -134,6 +134,38 @@ describe('createGpu', () => {
     expect(unsafe.filter((feature) => feature.startsWith('chromium-experimental'))).not.toEqual([]);
   });
 
+  it('gives devices that clear the memory of workgroups', async () => {
+    const { gpu } = await createGpu({ software: 'only' });
+    const device = await (await gpu.requestAdapter())!.requestDevice();
+    // Each group looks whether its memory is clear and fills it, for groups that get the same memory after it.
+    const code = `var<workgroup> memory: array<array<vec4u, 16>, 64>;
+@group(0) @binding(0) var<storage, read_write> dirty: atomic<u32>;
+@compute @workgroup_size(64) fn main(@builtin(local_invocation_index) i: u32) {
+  for (var k = 0u; k < 16u; k++) {
+    if (any(memory[i][k] != vec4u(0u))) { atomicAdd(&dirty, 1u); }
+    memory[i][k] = vec4u(7u);
+  }
+}`;
+    const pipeline = device.createComputePipeline({
+      layout: 'auto',
+      compute: { module: device.createShaderModule({ code }) },
+    });
+    const dirty = device.createBuffer({ size: 4, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC });
+    const copy = device.createBuffer({ size: 4, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+    const layout = pipeline.getBindGroupLayout(0);
+    const encoder = device.createCommandEncoder();
+    const pass = encoder.beginComputePass();
+    pass.setPipeline(pipeline);
+    pass.setBindGroup(0, device.createBindGroup({ layout, entries: [{ binding: 0, resource: { buffer: dirty } }] }));
+    pass.dispatchWorkgroups(64);
+    pass.end();
+    encoder.copyBufferToBuffer(dirty, 0, copy, 0, 4);
+    device.queue.submit([encoder.finish()]);
+    await copy.mapAsync(GPUMapMode.READ);
+    expect(new Uint32Array(copy.getMappedRange())[0]).toBe(0);
+    device.destroy();
+  });
+
   it('does nothing on import, in a worker thread too', async () => {
     const url = pathToFileURL(join(folder, 'import-only.mjs')).href;
     await build({
