@@ -216,8 +216,8 @@ test('the first script is small, and controls come after the first model', async
   const layers = /\/wasm-chain-[^/]+\.js$/;
   await expect.poll(() => at(layers)).toBeGreaterThan(at(denoiser));
   expect(fetched(asked.slice(at(denoiser), at(layers)))).toBeLessThan(21_000);
-  expect(fetched(asked.slice(at(denoiser)))).toBeLessThan(24_000);
-  expect(fetched(copies)).toBeLessThan(1_100);
+  expect(fetched(asked.slice(at(denoiser)))).toBeLessThan(23_100);
+  expect(fetched(copies)).toBeLessThan(1_050);
   expect(asked.filter((url) => url.endsWith('.tza'))).toHaveLength(1);
   // Presets, encoders and decoders are loaded when they are needed.
   expect(
