@@ -78,7 +78,6 @@ export class ElementAnimation {
     this.#player = this.#opening = undefined;
     this.#paused = true;
     this.#time = 0;
-    if (available.length === 0) return;
     if (this.#host.name() !== null) this.rename();
     if (this.#host.autoplay()) this.play();
   }
@@ -86,25 +85,28 @@ export class ElementAnimation {
   /** `animation-name` has changed. */
   rename(): void {
     const name = this.#host.name() ?? (this.paused ? undefined : this.#available[0]?.name);
-    if (this.#available.length > 0) this.#do((player) => void (player.name = name));
+    this.#do((player) => void (player.name = name));
   }
 
-  /** Does something with the player: at once if it is there, and in order if it is not. */
+  /** Does something with the player, where there are animations: at once if it is there, and in order if it is not. */
   #do(act: (player: AnimationPlayer) => void): void {
     if (this.#player) return this.#attempt(act, this.#player);
     const viewer = this.#host.viewer();
     if (!viewer || this.#available.length === 0) return;
     const available = this.#available;
+    const isShown = () => available === this.#available;
     const opening = (this.#opening ??= viewer.animation().then((player) => {
-      if (available === this.#available) {
+      if (isShown()) {
         this.#player = player;
         player.timeScale = this.#scale;
       }
       return player;
     }));
     opening.then(
-      (player) => available === this.#available && this.#attempt(act, player),
+      (player) => isShown() && this.#attempt(act, player),
       (error: unknown) => {
+        // What the next model waits for is not this.
+        if (!isShown()) return;
         this.#opening = undefined;
         this.#paused = true;
         this.#host.fail(error);
