@@ -25,8 +25,8 @@ interface Shared {
 const shared = new Map<string, Shared>();
 
 /**
- * Compiling is most of the time that tests take on a software GPU, and a fifth of it is Dawn's bounds checks. `npm test
- * -- --full` compiles them, as do all tests that open GPUs of their own.
+ * Compiling is most of the time that tests take on a software GPU, and Dawn's bounds checks are up to a fifth of it. `npm
+ * test -- --full` compiles them, as do all tests that open GPUs of their own.
  */
 const TOGGLES = process.env['GLANZ_FULL'] === undefined ? ['disable_robustness'] : [];
 
