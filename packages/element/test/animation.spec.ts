@@ -2,12 +2,8 @@ import { fileURLToPath } from 'node:url';
 import { animatedQuads, photograph, quads, servePage, watch, type Served } from '@glanz/browser';
 import { test } from '@glanz/browser/shared-device';
 import { expect, type Page } from '@playwright/test';
-import type { GlanzViewerElement } from '@glanz/element';
+import { done, type TestWindow } from './open';
 
-interface TestWindow {
-  put: (attributes: Record<string, string>) => GlanzViewerElement;
-  heard: { type: string; detail: Record<string, unknown> }[];
-}
 declare const window: TestWindow & typeof globalThis;
 
 let served: Served;
@@ -43,17 +39,6 @@ async function open(page: Page, attributes: Record<string, string>): Promise<voi
 }
 const events = (page: Page, ...types: string[]) =>
   page.evaluate((all) => window.heard.filter(({ type }) => all.includes(type)).map(({ type }) => type), types);
-async function done(page: Page): Promise<void> {
-  await page.evaluate(async () => {
-    const end = performance.now() + 55_000;
-    const isDone = () => {
-      const { viewer } = document.querySelector('glanz-viewer') ?? {};
-      // The state is still that of the former image right after a change.
-      return viewer?.state === 'done' && viewer.sampleCount > 0;
-    };
-    while (!isDone() && performance.now() < end) await new Promise((resolve) => setTimeout(resolve, 30));
-  });
-}
 /** What is seen left and right of the middle. */
 async function sides(page: Page): Promise<string[]> {
   await done(page);

@@ -1,29 +1,14 @@
-import { fileURLToPath } from 'node:url';
-import { checkAccessibility, hdr, injectFaults, pixelsOf, quads, servePage, watch, type Served } from '@glanz/browser';
+import { checkAccessibility, hdr, injectFaults, pixelsOf, quads, watch, type Served } from '@glanz/browser';
 import { test } from '@glanz/browser/shared-device';
 import { expect, type Page } from '@playwright/test';
-import { build, type BuildOptions } from 'esbuild';
-import type { GlanzViewerElement } from '@glanz/element';
-import { weslSource } from '../../../tools/pipeline/wesl.mjs';
+import { done, FAST, heard, model, open as openAt, put, serveStrictly, shot, viewer, type TestWindow } from './open';
 import { dracoModel, ktx2Model } from './packed';
 
-interface TestWindow {
-  put: (attributes: Record<string, string>, children?: string) => GlanzViewerElement;
-  file: (base64: string, name: string) => File;
-  heard: { type: string; detail: Record<string, unknown>; samples?: number }[];
-  loseGpu: () => void;
-}
 declare const window: TestWindow & typeof globalThis;
-
-// The strictest policy that lets a page use WebGPU at all: nothing inline, no blobs, nothing from elsewhere.
-const POLICY =
-  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self'; worker-src 'self'";
 
 let served: Served;
 test.beforeAll(async ({ deviceHost }) => {
-  served = await servePage(fileURLToPath(new URL('page', import.meta.url)), {
-    'Content-Security-Policy': POLICY,
-  });
+  served = await serveStrictly();
   deviceHost.origin = served.origin;
 });
 test.afterAll(() => served.close());
@@ -48,60 +33,11 @@ test.beforeEach(async ({ page }) => {
 });
 test.afterEach(() => expect(complaints).toEqual([]));
 
-const model = quads([
-  { name: 'left', colour: [0.9, 0.02, 0.02], at: [-1.2, 0, 0] },
-  { name: 'right', colour: [0.02, 0.8, 0.02], at: [1.2, 0, 0], variants: { night: [0.02, 0.02, 0.9] } },
-]);
 const other = quads([{ name: 'one', colour: [0.9, 0.9, 0.02] }]);
 
-const FAST = {
-  samples: '8',
-  'max-depth': '3',
-  'pixel-ratio': '0.25',
-  'camera-orbit': '0deg 90deg 5m',
-  'field-of-view': '35deg',
-};
-const viewer = (page: Page) => page.locator('glanz-viewer');
-const heard = (page: Page, type: string) =>
-  page.evaluate(
-    (expected) => window.heard.filter((event) => event.type === expected).map(({ detail }) => detail),
-    type,
-  );
-const put = (page: Page, attributes: Record<string, string>, children = '') =>
-  page.evaluate(([given, inner]) => void window.put(given as Record<string, string>, inner as string), [
-    attributes,
-    children,
-  ] as const);
 const state = (page: Page) => page.evaluate(() => document.querySelector('glanz-viewer')!.viewer?.state);
-/** Waits until the image is done as it is now: the state is still that of the former one right after a change. */
-async function done(page: Page): Promise<void> {
-  // In the page itself: polls of Playwright come up to a second late, in which a core is idle.
-  await page.evaluate(async () => {
-    const isDone = () => {
-      const { viewer } = document.querySelector('glanz-viewer') ?? {};
-      return viewer?.state === 'done' && viewer.sampleCount > 0;
-    };
-    const end = performance.now() + 55_000;
-    while (!isDone() && performance.now() < end) await new Promise((resolve) => setTimeout(resolve, 30));
-  });
-  const image = () =>
-    page.evaluate(() => {
-      const { viewer } = document.querySelector('glanz-viewer') ?? {};
-      return [viewer?.state, (viewer?.sampleCount ?? 0) > 0];
-    });
-  await expect.poll(image, { message: 'the image is done' }).toEqual(['done', true]);
-}
-const shot = async (page: Page) => {
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  // Without the progress bar, which fades for half a second.
-  return pixelsOf(page, await viewer(page).screenshot({ animations: 'disabled' }));
-};
-
-async function open(page: Page, attributes: Record<string, string> = {}, children = ''): Promise<void> {
-  await page.goto(served.origin);
-  await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST, ...attributes }, children);
-  await done(page);
-}
+const open = (page: Page, attributes?: Record<string, string>, children?: string) =>
+  openAt(page, served.origin, attributes, children);
 
 test('a model by markup alone, over the page, under a strict content security policy', async ({ page }) => {
   await open(page);
@@ -599,131 +535,6 @@ test('decoders can be replaced, and one that does not start is an error that say
     });
   }
   complaints = complaints.filter((text) => !/Content Security Policy/.test(text));
-});
-
-async function bundled(options: BuildOptions): Promise<Buffer> {
-  const {
-    outputFiles: [module],
-  } = await build({
-    bundle: true,
-    format: 'esm',
-    target: 'es2022',
-    conditions: ['@glanz/source'],
-    plugins: [weslSource()],
-    ...options,
-    write: false,
-  });
-  return Buffer.from(module!.contents);
-}
-
-/** A module whose images are grey: what a network takes to compile says nothing of how it is loaded. */
-const GREY = `import { denoising } from '@glanz/viewer/denoise';
-export default denoising(async (device) => ({
-  denoiseTracer: async ({ width, height }) => {
-    const buffer = device.createBuffer({ size: 16 * width * height, usage: 0x80, mappedAtCreation: true });
-    new Float32Array(buffer.getMappedRange()).fill(0.18);
-    buffer.unmap();
-    return { buffer, width, height };
-  },
-  read: async ({ width, height }) => new Float32Array(4 * width * height).fill(0.18),
-  destroy: () => undefined,
-}));`;
-
-/** Serves the guide's module that denoises, with its weights beside it; those in the folder `damaged` are not weights. */
-async function serveDenoiser(page: Page): Promise<void> {
-  const example = fileURLToPath(new URL('../../../apps/docs/examples/denoise-module.ts', import.meta.url));
-  const module = await bundled({ entryPoints: [example] });
-  await page.route('**/denoise.js', (route) => route.fulfill({ contentType: 'text/javascript', body: module }));
-  const weights = fileURLToPath(new URL('../../denoise-weights/weights/', import.meta.url));
-  await page.route('**/*.tza', (route) => {
-    const { pathname } = new URL(route.request().url());
-    return pathname.includes('damaged')
-      ? route.fulfill({ body: Buffer.from('no weights') })
-      : route.fulfill({ path: weights + pathname.slice(1) });
-  });
-}
-
-/**
- * Whether the frame that follows a change of the exposure, which is of no concern to a denoiser, shows it.
- * No frame follows an exposure that the element has already.
- */
-const showsDenoised = (page: Page, exposure: number) =>
-  page.evaluate(
-    (value) =>
-      new Promise<boolean>((resolve) => {
-        const element = document.querySelector('glanz-viewer')!;
-        element.viewer!.on('frame', ({ denoised }) => resolve(denoised));
-        element.exposureEv = value;
-      }),
-    exposure,
-  );
-
-/** Waits until frames show the denoiser. */
-async function becomesDenoised(page: Page): Promise<void> {
-  let exposure = 1;
-  await expect.poll(() => showsDenoised(page, (exposure += 1 / 64))).toBe(true);
-}
-
-const setDenoise = (page: Page, address: string | null) =>
-  page.evaluate((value) => void (document.querySelector('glanz-viewer')!.denoise = value), address);
-
-test('images are denoised by the module that `denoise` names, and say so', async ({ page }) => {
-  await serveDenoiser(page);
-  await open(page, { denoise: 'denoise.js', samples: '2' });
-  await becomesDenoised(page);
-  expect(await showsDenoised(page, 0.5)).toBe(true);
-  const saved = () =>
-    page.evaluate(async () =>
-      new TextDecoder('latin1').decode(await (await document.querySelector('glanz-viewer')!.toBlob()).arrayBuffer()),
-    );
-  expect(await saved()).toContain('tEXtDenoised');
-  const clean = await shot(page);
-
-  // Without it the film is shown, which is that of an element that has never had one.
-  await setDenoise(page, null);
-  expect(await showsDenoised(page, 0.25)).toBe(false);
-  expect(await showsDenoised(page, 0.5)).toBe(false);
-  expect(await saved()).not.toContain('tEXtDenoised');
-  const film = await shot(page);
-  expect(film.cells).not.toEqual(clean.cells);
-  await page.evaluate(() => document.querySelector('glanz-viewer')!.remove());
-  await put(page, { src: 'model.glb', alt: 'Two cards', ...FAST, samples: '2', 'exposure-ev': '0.5' });
-  await done(page);
-  expect((await shot(page)).cells).toEqual(film.cells);
-  expect(await heard(page, 'warning')).toEqual([]);
-  expect(await heard(page, 'error')).toEqual([]);
-});
-
-test('a denoiser that does not load is a warning, and the image is there with its noise', async ({ page }) => {
-  await serveDenoiser(page);
-  await page.route('**/none.js', (route) => route.fulfill({ status: 404 }));
-  const grey = await bundled({ stdin: { contents: GREY, resolveDir: fileURLToPath(new URL('.', import.meta.url)) } });
-  await page.route('**/grey.js', (route) => route.fulfill({ contentType: 'text/javascript', body: grey }));
-  await page.route('**/other.js', (route) =>
-    route.fulfill({ contentType: 'text/javascript', body: 'export default { denoise: true };' }),
-  );
-  await open(page, { denoise: 'none.js' });
-  const warnings = () => heard(page, 'warning');
-  await expect.poll(warnings).toHaveLength(1);
-  await setDenoise(page, 'other.js');
-  await expect.poll(warnings).toHaveLength(2);
-  await setDenoise(page, 'damaged/denoise.js');
-  await expect.poll(warnings).toHaveLength(3);
-  expect(await warnings()).toEqual([
-    { code: 'element/denoise', message: expect.stringContaining('denoise="none.js"') },
-    { code: 'element/denoise', message: expect.stringMatching(/denoise="other\.js".*denoising\(\)/) },
-    { code: 'viewer/denoise', message: expect.stringContaining('shown with its noise') },
-  ]);
-  expect(await showsDenoised(page, 0.5)).toBe(false);
-  expect(await heard(page, 'error')).toEqual([]);
-  await expect(viewer(page).getByRole('alert')).toBeHidden();
-  // The module that is named last counts; that of the others is not reported any more.
-  await page.evaluate(() => {
-    for (const address of ['none.js', 'grey.js']) document.querySelector('glanz-viewer')!.denoise = address;
-  });
-  await becomesDenoised(page);
-  expect(await warnings()).toHaveLength(3);
-  complaints = complaints.filter((text) => !text.includes('404'));
 });
 
 test('a broken environment is a warning, at the start and later, and the model is there', async ({ page }) => {

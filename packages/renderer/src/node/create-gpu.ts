@@ -89,9 +89,9 @@ function objection(info: GPUAdapterInfo, options: GpuOptions): string | undefine
 /**
  * Tries the drivers now in effect. Gives a GPU, or a reason.
  *
- * @param isPackaged Whether they are those that {@link sources} has switched to, all of them software.
+ * @param switched Whether {@link sources} has switched to them: such are software.
  */
-async function tryDrivers(dawn: Dawn, options: GpuOptions, isPackaged: boolean): Promise<NodeGpu | string> {
+async function tryDrivers(dawn: Dawn, options: GpuOptions, switched: boolean): Promise<NodeGpu | string> {
   const requested = options.gpu?.toLowerCase();
   // Listing costs a driver start of its own, so the usual case does without.
   let names: (string | undefined)[] = [undefined];
@@ -112,7 +112,7 @@ async function tryDrivers(dawn: Dawn, options: GpuOptions, isPackaged: boolean):
         ...(toggles.length === 0 ? [] : [`enable-dawn-features=${toggles.join()}`]),
         // SwiftShader compiles a store for each element of the constant that clears workgroup memory: a loop in its
         // place halves the time that the denoiser's programs take to compile.
-        ...(isPackaged ? ['disable-dawn-features=use_vulkan_zero_initialize_workgroup_memory_extension'] : []),
+        ...(switched ? ['disable-dawn-features=use_vulkan_zero_initialize_workgroup_memory_extension'] : []),
       ]);
       const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
       if (!adapter) continue;
