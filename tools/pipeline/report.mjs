@@ -69,25 +69,31 @@ export function vitestFailures({ testResults = [] }, root) {
   });
 }
 
+/** First errors of tests that are not their own: the browser did not start, crashed, or dropped what a page owed it. */
+const BROWSER_FAILED = /browserType\.launch|crashed|has been closed|promise was garbage collected/;
+
 /**
- * What failed, or passed only when repeated, according to a report of Playwright's JSON reporter: one line a test,
- * `file: title: first line of its message`, and one for each error outside of the tests.
+ * What failed according to a report of Playwright's JSON reporter: one line a test, `file: title: first line of its
+ * message`, and one for each error outside of the tests. A test that passes only when repeated has failed, unless the
+ * browser failed at its first try: then it is among `repeated`.
  *
- * @returns {string[]}
+ * @returns {{ failed: string[], repeated: string[] }}
  */
 export function playwrightFailures({ suites = [], errors = [] }) {
-  const lines = errors.map(({ message }) => firstLine(message));
+  const failed = errors.map(({ message }) => firstLine(message));
+  const repeated = [];
   const visit = (suite) => {
     for (const { file, title, tests } of suite.specs ?? [])
       for (const { status, results } of tests)
         if (status === 'unexpected' || status === 'flaky') {
-          const error = results.find((result) => result.error)?.error;
-          lines.push(`${file}: ${title}: ${firstLine(error?.message ?? status)}`);
+          const message = firstLine(results.find((result) => result.error)?.error.message ?? status);
+          const lines = status === 'flaky' && BROWSER_FAILED.test(message) ? repeated : failed;
+          lines.push(`${file}: ${title}: ${message}`);
         }
     for (const child of suite.suites ?? []) visit(child);
   };
   for (const suite of suites) visit(suite);
-  return lines;
+  return { failed, repeated };
 }
 
 /** Runs one check as a program of its own when its file is the one that Node was started with. */

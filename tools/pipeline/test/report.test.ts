@@ -45,20 +45,30 @@ describe('sums', () => {
   ]);
 });
 
-it("names the failed tests of Playwright's report, and those that pass only when repeated", () => {
+it("names the failed tests of Playwright's report, and repeated ones unless the browser failed at first", () => {
   writeFileSync(
     join(folder, 'a.spec.mjs'),
     `import { expect, test } from '@playwright/test';
 test('holds', () => expect(2).toBe(2));
 test('does not hold', () => { throw new Error('the second\\nfails'); });
-test('holds when repeated', ({}, { retry }) => expect(retry, 'tries before').toBe(1));`,
+test('holds when repeated', ({}, { retry }) => expect(retry, 'tries before').toBe(1));
+test('has a browser when repeated', ({}, { retry }) => {
+  if (retry === 0) throw new Error('browserType.launch: Target page, context or browser has been closed');
+});
+test('has no browser', () => { throw new Error('page.goto: Page crashed'); });`,
   );
   writeFileSync(join(folder, 'playwright.config.mjs'), `export default { testMatch: 'a.spec.mjs', retries: 1 };`);
   const file = join(folder, 'playwright.json');
   const playwright = join(dirname(require.resolve('@playwright/test/package.json')), 'cli.js');
   expect(run(playwright, ['test', '--reporter=json'], { PLAYWRIGHT_JSON_OUTPUT_NAME: file })).toBe(1);
-  expect(playwrightFailures(JSON.parse(readFileSync(file, 'utf8')))).toEqual([
-    'a.spec.mjs: does not hold: Error: the second',
-    'a.spec.mjs: holds when repeated: Error: tries before',
-  ]);
+  expect(playwrightFailures(JSON.parse(readFileSync(file, 'utf8')))).toEqual({
+    failed: [
+      'a.spec.mjs: does not hold: Error: the second',
+      'a.spec.mjs: holds when repeated: Error: tries before',
+      'a.spec.mjs: has no browser: Error: page.goto: Page crashed',
+    ],
+    repeated: [
+      'a.spec.mjs: has a browser when repeated: Error: browserType.launch: Target page, context or browser has been closed',
+    ],
+  });
 });
