@@ -69,8 +69,8 @@ export function vitestFailures({ testResults = [] }, root) {
   });
 }
 
-/** First errors of tests that are not their own: the browser did not start, crashed, or dropped what a page owed it. */
-const BROWSER_FAILED = /browserType\.launch|crashed|has been closed|promise was garbage collected/;
+/** Errors that are not of tests: a browser did not start, crashed, lost a context or a promise. */
+const BROWSER_FAILED = /browserType\.launch|crashed|has been closed|Protocol error|promise was garbage collected/;
 
 /**
  * What failed according to a report of Playwright's JSON reporter: one line a test, `file: title: first line of its
@@ -86,9 +86,12 @@ export function playwrightFailures({ suites = [], errors = [] }) {
     for (const { file, title, tests } of suite.specs ?? [])
       for (const { status, results } of tests)
         if (status === 'unexpected' || status === 'flaky') {
-          const message = firstLine(results.find((result) => result.error)?.error.message ?? status);
-          const lines = status === 'flaky' && BROWSER_FAILED.test(message) ? repeated : failed;
-          lines.push(`${file}: ${title}: ${message}`);
+          // Where the browser fails in a hook, the hooks that follow fail too. After its time is up, a test is closed.
+          const messages = results.flatMap(({ errors }) => errors.map(({ message }) => firstLine(message)));
+          const late = messages.some((message) => message.startsWith('Test timeout'));
+          const cause = late ? undefined : messages.find((message) => BROWSER_FAILED.test(message));
+          if (status === 'flaky' && cause) repeated.push(`${file}: ${title}: ${cause}`);
+          else failed.push(`${file}: ${title}: ${messages[0] ?? status}`);
         }
     for (const child of suite.suites ?? []) visit(child);
   };

@@ -74,7 +74,7 @@ export function onePage(
   query: string,
   ready: (page: Page) => Promise<void> | void,
 ): void {
-  let page: Page;
+  let page: Page | undefined;
   let close: () => Promise<void> = async () => undefined;
   let complaints: readonly string[] = [];
   test.beforeAll(async ({ browser }) => {
@@ -87,7 +87,8 @@ export function onePage(
   });
   test.afterEach(() => expect(complaints).toEqual([]));
   test.afterAll(async () => {
-    await page.close();
+    // Undefined where the browser had no page to give.
+    await page?.close();
     await close();
   });
 }

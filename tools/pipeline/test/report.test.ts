@@ -53,7 +53,14 @@ test('holds', () => expect(2).toBe(2));
 test('does not hold', () => { throw new Error('the second\\nfails'); });
 test('holds when repeated', ({}, { retry }) => expect(retry, 'tries before').toBe(1));
 test('has a browser when repeated', ({}, { retry }) => {
-  if (retry === 0) throw new Error('browserType.launch: Target page, context or browser has been closed');
+  if (retry > 0) return;
+  expect.soft(retry, 'a hook that follows').toBe(1);
+  throw new Error('browserType.launch: Target page, context or browser has been closed');
+});
+test('is late', async ({}, { retry }) => {
+  test.setTimeout(retry === 0 ? 500 : 0);
+  expect.soft(retry, 'Target page, context or browser has been closed').toBe(1);
+  if (retry === 0) await new Promise((resolve) => setTimeout(resolve, 1000));
 });
 test('has no browser', () => { throw new Error('page.goto: Page crashed'); });`,
   );
@@ -65,6 +72,7 @@ test('has no browser', () => { throw new Error('page.goto: Page crashed'); });`,
     failed: [
       'a.spec.mjs: does not hold: Error: the second',
       'a.spec.mjs: holds when repeated: Error: tries before',
+      expect.stringMatching('a.spec.mjs: is late: '),
       'a.spec.mjs: has no browser: Error: page.goto: Page crashed',
     ],
     repeated: [
