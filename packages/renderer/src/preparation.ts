@@ -1,5 +1,5 @@
 import { loadPart } from '@glanz/wgsl';
-import { inSlices, SceneError, validationSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
+import { inSlices, SceneError, checkSceneSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
 import { biasedFlags } from './biased-options';
 import { cameraUniforms } from './camera/camera';
 import { cameraSteps } from './camera/choose-camera';
@@ -111,7 +111,7 @@ const inspection = ({ device, cache, scene: given, options }: PreparationInput) 
     needs: [],
     place: 'foreground',
     async run(_, { signal }) {
-      await inSlices(validationSteps(given), { signal });
+      await inSlices(checkSceneSteps(given), { signal });
       const scene = ownScene(given);
       checkInteriors(scene);
       return scene;

@@ -28,6 +28,7 @@ export { defaultMaterial } from './default-material';
 export { SceneError } from './error';
 export { frameCamera, frameCameraSteps, type FrameCameraOptions } from './frame-camera';
 export { yieldToEventLoop, finish, inSlices, type SliceOptions, type Steps } from './slices';
+export { checkScene, checkSceneSteps } from './check-scene';
 export { validateScene, validationSteps } from './validate';
 export { withVariant } from './variant';
 export { untilAborted } from './until-aborted';

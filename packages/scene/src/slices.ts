@@ -35,7 +35,7 @@ export function yieldToEventLoop(): Promise<void> {
  * responsive.
  *
  * @param steps What a function named `…Steps` returns: {@link sceneBoundsSteps}, {@link frameCameraSteps},
- * {@link validationSteps}.
+ * {@link checkSceneSteps}, {@link validationSteps}.
  * @returns What the steps return.
  * @throws What the steps throw, or the signal's reason when aborted.
  * @example

@@ -1,6 +1,7 @@
 import { OperationCounter } from '@glanz/operations';
 import { afterAll, describe, expect, test } from 'vitest';
-import { createScene, defaultMaterial, SceneError, validateScene, validationSteps, type Scene } from '../src/index';
+import { checkScene, createScene, defaultMaterial, SceneError, validateScene, validationSteps } from '../src/index';
+import type { Scene } from '../src/index';
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
@@ -217,6 +218,19 @@ const faults: [string, (scene: Scene) => void, string, RegExp][] = [
   ['a negative sky', (s) => ((s.environment as { data: Float32Array }).data[3] = -1), 'scene/not-finite', /-1 at 3/],
 ];
 
+const large = (triangles: number, vertices: number) => {
+  const scene = createScene();
+  scene.meshes.push({
+    name: 'large',
+    positions: Float32Array.from({ length: 3 * vertices }, (_, i) => Math.sin(i * 12.9898) * 10),
+    normals: new Float32Array(3 * vertices).fill(0.577),
+    indices: Uint32Array.from({ length: 3 * triangles }, (_, i) => (i * 7919) % vertices),
+  });
+  scene.materials.push(defaultMaterial());
+  scene.instances.push({ name: 'part', mesh: 0, material: 0, transform: identity });
+  return scene;
+};
+
 describe('validateScene', () => {
   test('a valid scene passes without a warning', () => expect(validateScene(whole())).toEqual([]));
 
@@ -249,6 +263,26 @@ describe('validateScene', () => {
     expect((caught as SceneError).code).toBe(code);
     expect((caught as SceneError).message).toMatch(message);
     expect((caught as SceneError).message).not.toContain('\n');
+    expect(() => checkScene(scene)).toThrow(caught as SceneError);
+  });
+
+  test('wherever a number is not finite, it is found', () => {
+    for (const vertices of [3, 4])
+      for (let i = 0; i < 3 * vertices; i++) {
+        const scene = createScene();
+        const positions = new Float32Array(3 * vertices);
+        scene.meshes.push({ name: 'one', positions, indices: new Uint32Array([0, 1, 2]) });
+        expect(() => checkScene(scene)).not.toThrow();
+        positions[i] = i % 2 === 0 ? NaN : Infinity;
+        expect(() => checkScene(scene)).toThrow(`positions holds ${positions[i]} at ${i};`);
+      }
+  });
+
+  test('suspicious parts are not looked for where scenes are only checked', async () => {
+    const scene = large(20_000, 10_000);
+    const check = (await counter.measure(() => checkScene(scene))).operations;
+    const validation = (await counter.measure(() => validateScene(scene))).operations;
+    expect(check).toBeLessThan(0.7 * validation);
   });
 
   test('triangles with equal corners are reported, not refused', () => {
@@ -280,19 +314,6 @@ describe('validateScene', () => {
     scene.materials[0]!.textures!.base_color!.uv = 1;
     expect(validateScene(scene)).toMatchObject([{ code: 'scene/missing-uv', path: '/instances/0' }]);
   });
-
-  const large = (triangles: number, vertices: number) => {
-    const scene = createScene();
-    scene.meshes.push({
-      name: 'large',
-      positions: Float32Array.from({ length: 3 * vertices }, (_, i) => Math.sin(i * 12.9898) * 10),
-      normals: new Float32Array(3 * vertices).fill(0.577),
-      indices: Uint32Array.from({ length: 3 * triangles }, (_, i) => (i * 7919) % vertices),
-    });
-    scene.materials.push(defaultMaterial());
-    scene.instances.push({ name: 'part', mesh: 0, material: 0, transform: identity });
-    return scene;
-  };
 
   test('the cost is a few operations per triangle', async () => {
     const cost = async (triangles: number) =>

@@ -1,5 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
-import { createScene, inSlices, untilAborted, validationSteps, type Environment, type Scene } from '@glanz/scene';
+import { createScene, inSlices, untilAborted, checkSceneSteps, type Environment, type Scene } from '@glanz/scene';
 import type { Engine } from './engine';
 import { isLoss } from './aborts';
 import { ViewerError } from './errors';
@@ -150,7 +150,7 @@ async function loadFor(
   signal.throwIfAborted();
   const loaded = await forScene(source, given, scene);
   // Without a tracer nothing else validates it.
-  if (!scene && loaded) await inSlices(validationSteps({ ...createScene(), environment: loaded }), { signal });
+  if (!scene && loaded) await inSlices(checkSceneSteps({ ...createScene(), environment: loaded }), { signal });
   signal.throwIfAborted();
   return loaded;
 }

@@ -1,4 +1,4 @@
-import { createScene, validateScene, type Camera } from '@glanz/scene';
+import { createScene, checkScene, type Camera } from '@glanz/scene';
 import { RenderError } from '../errors';
 
 /** The camera's part of the frame uniforms. */
@@ -26,7 +26,7 @@ function checkCamera(camera: Camera): void {
   if (camera.transform?.length !== 16)
     throw new RenderError('renderer/camera', `Camera "${camera.name}" needs a transform of 16 numbers, column-major.`);
   try {
-    validateScene({ ...createScene(), cameras: [camera] });
+    checkScene({ ...createScene(), cameras: [camera] });
   } catch (cause) {
     throw new RenderError('renderer/camera', (cause as Error).message, { cause });
   }

@@ -1,4 +1,4 @@
-import { createScene, inSlices, validateScene, validationSteps, type Environment, type Scene } from '@glanz/scene';
+import { createScene, inSlices, checkScene, checkSceneSteps, type Environment, type Scene } from '@glanz/scene';
 import { environmentSteps, hasSameTexels, type EnvironmentData } from '../environment/environment';
 import { RenderError } from '../errors';
 import type { GpuScene } from './gpu-scene';
@@ -34,7 +34,7 @@ export class EnvironmentEditor {
         environment?.type === 'latlong'
           ? { ...environment, width: 1, height: 1, data: new Float32Array(3) }
           : environment;
-      if (checked) validateScene({ ...createScene(), environment: checked });
+      if (checked) checkScene({ ...createScene(), environment: checked });
       return this.#changeEnvironment(environment);
     });
   }
@@ -81,7 +81,7 @@ export class EnvironmentEditor {
 
   /** Validates an image and computes what the GPU needs of it, a slice at a time. */
   async #prepareImage(environment: Environment): Promise<SceneChange> {
-    await inSlices(validationSteps({ ...createScene(), environment }));
+    await inSlices(checkSceneSteps({ ...createScene(), environment }));
     return this.#changeEnvironment(environment, await inSlices(environmentSteps(environment)));
   }
 

@@ -1,4 +1,4 @@
-import type { createScene, Mesh, Scene, validateScene } from '@glanz/scene';
+import type { createScene, Mesh, Scene, checkScene } from '@glanz/scene';
 import type { notFound } from '../errors';
 import type { attributeWords, Geometry, layOutGeometry, meshSlices } from '../geometry/geometry';
 import type { loadGpuTrees } from '../geometry/hierarchies';
@@ -15,7 +15,7 @@ type Tools = readonly [
   typeof loadGpuTrees,
   typeof meshSlices,
   typeof notFound,
-  typeof validateScene,
+  typeof checkScene,
 ];
 
 /** What it uses of the editor. */
@@ -38,7 +38,7 @@ export async function replaceMesh(
   nameOrIndex: string | number,
   mesh: Mesh,
 ): Promise<SceneChange> {
-  const [, createScene, , loadGpuTrees, meshSlices, notFound, validateScene] = tools;
+  const [, createScene, , loadGpuTrees, meshSlices, notFound, checkScene] = tools;
   const { scene } = editor;
   const index =
     typeof nameOrIndex === 'number' ? nameOrIndex : scene.meshes.findIndex(({ name }) => name === nameOrIndex);
@@ -53,7 +53,7 @@ export async function replaceMesh(
     throw error;
   });
   if (posed) return posed;
-  validateScene({ ...createScene(), meshes: [mesh] });
+  checkScene({ ...createScene(), meshes: [mesh] });
   const change = await replaced(editor, tools, index, mesh);
   return {
     ...change,

@@ -1,7 +1,7 @@
 import { loadPart } from '@glanz/wgsl';
 import {
   createScene,
-  validateScene,
+  checkScene,
   type Environment,
   type Instance,
   type Light,
@@ -106,7 +106,7 @@ export class SceneEditor {
     const light = lights[index];
     if (!light) throw notFound('renderer/light', nameOrIndex, lights);
     const next = { ...light, ...change, type: light.type } as Light;
-    validateScene({ ...createScene(), lights: [next] });
+    checkScene({ ...createScene(), lights: [next] });
     return {
       isStale: () => lights[index] !== light,
       apply: () => {
@@ -201,7 +201,7 @@ export class SceneEditor {
       loadGpuTrees,
       meshSlices,
       notFound,
-      validateScene,
+      checkScene,
     ] as const;
     return replaceMesh(this, tools, nameOrIndex, mesh);
   }

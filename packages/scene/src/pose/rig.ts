@@ -1,7 +1,7 @@
 import { SceneError } from '../error';
 import type { Mesh, MeshRig, MeshSkin, MorphTarget } from '../mesh';
 import { createScene } from '../scene';
-import { validateScene } from '../validate';
+import { checkScene } from '../check-scene';
 
 /** How a mesh can be posed; see {@link createRig}. */
 export interface RigOptions {
@@ -31,7 +31,7 @@ function expectFinite(values: Float32Array, what: string): void {
  * await tracer.replaceMesh('arm', poseMesh(rig, { joints: [...upper, ...lower] }));
  */
 export function createRig(bind: Mesh, { skin, targets = [] }: RigOptions): MeshRig {
-  validateScene({ ...createScene(), meshes: [bind] });
+  checkScene({ ...createScene(), meshes: [bind] });
   const { name } = bind;
   const length = bind.positions.length;
   if (skin) {
