@@ -28,7 +28,7 @@ export default defineConfig({
   // in between: three at a time keep two cores busy.
   workers: 3,
   timeout: 120_000,
-  // Browsers fail now and then. `npm test` lets a repeated test pass only then: see playwrightFailures().
+  // Now and then a browser does not start. `npm test` lets a repeated test pass only then: see playwrightFailures().
   retries: 1,
   expect: { timeout: 60_000 },
   forbidOnly: true,

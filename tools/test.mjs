@@ -108,7 +108,7 @@ async function e2e() {
   const failed = Math.max(unexpected + flaky - repeated.length, code === 0 && passed > 0 ? 0 : 1);
   if (failed > 0 && lines.length === 0) lines.push(`playwright ended with code ${code}, ${passed} tests passed`);
   const table = report ? noteTimes('e2e', playwrightTimes(report)) : [];
-  if (repeated.length > 0) table.push('repeated, because the browser failed', ...repeated);
+  if (repeated.length > 0) table.push('repeated, because there was no browser', ...repeated);
   return { passed, failed, skipped, table, lines };
 }
 

@@ -69,13 +69,13 @@ export function vitestFailures({ testResults = [] }, root) {
   });
 }
 
-/** Errors that are not of tests: a browser did not start, crashed, lost a context or a promise. */
-const BROWSER_FAILED = /browserType\.launch|crashed|has been closed|Protocol error|promise was garbage collected/;
+/** Errors before there is a page, when nothing of ours has run yet: the browser did not start, or had no page to give. */
+const NO_BROWSER = /browserType\.launch|browser\.new(Context|Page)/;
 
 /**
  * What failed according to a report of Playwright's JSON reporter: one line a test, `file: title: first line of its
- * message`, and one for each error outside of the tests. A test that passes only when repeated has failed, unless the
- * browser failed at its first try: then it is among `repeated`.
+ * message`, and one for each error outside of the tests. A test that passes only when repeated has failed, unless it had
+ * no browser at its first try: then it is among `repeated`.
  *
  * @returns {{ failed: string[], repeated: string[] }}
  */
@@ -86,10 +86,9 @@ export function playwrightFailures({ suites = [], errors = [] }) {
     for (const { file, title, tests } of suite.specs ?? [])
       for (const { status, results } of tests)
         if (status === 'unexpected' || status === 'flaky') {
-          // Where the browser fails in a hook, the hooks that follow fail too. After its time is up, a test is closed.
+          // Without a browser in a hook, the hooks that follow fail too.
           const messages = results.flatMap(({ errors }) => errors.map(({ message }) => firstLine(message)));
-          const late = messages.some((message) => message.startsWith('Test timeout'));
-          const cause = late ? undefined : messages.find((message) => BROWSER_FAILED.test(message));
+          const cause = messages.find((message) => NO_BROWSER.test(message));
           if (status === 'flaky' && cause) repeated.push(`${file}: ${title}: ${cause}`);
           else failed.push(`${file}: ${title}: ${messages[0] ?? status}`);
         }

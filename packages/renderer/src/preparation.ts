@@ -1,5 +1,5 @@
 import { loadPart } from '@glanz/wgsl';
-import { inSlices, SceneError, checkSceneSteps, type Camera, type Instance, type Scene } from '@glanz/scene';
+import { checkSceneSteps, inSlices, SceneError, type Camera, type Instance, type Scene } from '@glanz/scene';
 import { biasedFlags } from './biased-options';
 import { cameraUniforms } from './camera/camera';
 import { cameraSteps } from './camera/choose-camera';

@@ -261,7 +261,8 @@ function checkCompressed({ width, height }: Image, { format, levels }: Compresse
  * Checks that the parts of a scene fit together: indices, lengths of arrays, finite numbers, ranges (also those of
  * `Camera`). One pass over the data: 5 milliseconds for a million triangles. `validateScene` also finds suspicious parts.
  *
- * @throws {SceneError} at the first fault, with its place.
+ * @throws {SceneError} at the first fault, with its place: `scene/reference`, `scene/length`, `scene/not-finite`,
+ * `scene/value`.
  */
 export function checkScene(scene: Scene): void {
   finish(checkSceneSteps(scene));

@@ -1,5 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
-import { createScene, inSlices, untilAborted, checkSceneSteps, type Environment, type Scene } from '@glanz/scene';
+import { checkSceneSteps, createScene, inSlices, untilAborted, type Environment, type Scene } from '@glanz/scene';
 import type { Engine } from './engine';
 import { isLoss } from './aborts';
 import { ViewerError } from './errors';

@@ -45,7 +45,11 @@ interface Turn {
 const turn = (page: Page, mode: PreviewMode, turns: boolean): Promise<Turn> =>
   page.evaluate(
     async ([bytes, given, preview, steps]) => {
-      const viewer = window.make({ ...given, preview: { mode: preview, budgetMs: 1000, settleMs: 0 } });
+      // The window holds it, as in other tests: without that this promise was once collected before it was settled.
+      const viewer = (window.viewer = window.make({
+        ...given,
+        preview: { mode: preview, budgetMs: 1000, settleMs: 0 },
+      }));
       const codes = () => {
         const { width, height } = viewer.canvas;
         const context = new OffscreenCanvas(width, height).getContext('2d')!;

@@ -1,4 +1,4 @@
-import { createScene, checkScene, type Camera } from '@glanz/scene';
+import { checkScene, createScene, type Camera } from '@glanz/scene';
 import { RenderError } from '../errors';
 
 /** The camera's part of the frame uniforms. */

@@ -1,4 +1,4 @@
-import { createScene, inSlices, checkScene, checkSceneSteps, type Environment, type Scene } from '@glanz/scene';
+import { checkScene, checkSceneSteps, createScene, inSlices, type Environment, type Scene } from '@glanz/scene';
 import { environmentSteps, hasSameTexels, type EnvironmentData } from '../environment/environment';
 import { RenderError } from '../errors';
 import type { GpuScene } from './gpu-scene';

@@ -1,4 +1,4 @@
-import type { createScene, Mesh, Scene, checkScene } from '@glanz/scene';
+import type { checkScene, createScene, Mesh, Scene } from '@glanz/scene';
 import type { notFound } from '../errors';
 import type { attributeWords, Geometry, layOutGeometry, meshSlices } from '../geometry/geometry';
 import type { loadGpuTrees } from '../geometry/hierarchies';
