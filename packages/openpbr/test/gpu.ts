@@ -34,19 +34,16 @@ export interface GpuResult {
 
 const { dielectric, conductor } = OPENPBR_TABLES;
 
-/** The host's part: the tables in a buffer, filtered by hand, so that the precision is that of the arithmetic. */
-const host = (transmission: boolean) =>
-  wgslModule(
-    'test/host',
-    /* wgsl */ `
-struct Case { wo: vec4f, wi: vec4f, u: vec4f }
-struct Result { f: vec3f, pdf: f32, together: vec4f, wi: vec3f, sample_pdf: f32, weight: vec3f, valid: f32, emission: vec3f, opacity: f32, albedo: vec4f }
-@group(0) @binding(0) var<storage, read> tables: array<f32>;
-@group(0) @binding(1) var<storage, read> materials: array<OpenPbrParameters>;
-@group(0) @binding(2) var<storage, read> cases: array<Case>;
-@group(0) @binding(3) var<storage, read_write> results: array<Result>;
+/** Both tables, for a buffer. */
+export function tableData(): Float32Array<ArrayBuffer> {
+  const tables = new Float32Array(dielectric.data.length + conductor.data.length);
+  tables.set(dielectric.data);
+  tables.set(conductor.data, dielectric.data.length);
+  return tables;
+}
 
-fn table_row(at: u32, y: u32, z: u32, size: vec3u, x: vec3f) -> f32 {
+/** The host's accessors of the tables in `tables: array<f32>`, filtered by hand. */
+export const TABLES_WGSL = /* wgsl */ `fn table_row(at: u32, y: u32, z: u32, size: vec3u, x: vec3f) -> f32 {
   let base = at + (z * size.y + y) * size.x;
   let low = u32(x.x);
   return mix(tables[base + low], tables[base + min(low + 1u, size.x - 1u)], x.x - f32(low));
@@ -61,7 +58,21 @@ fn table(at: u32, size: vec3u, coords: vec3f) -> f32 {
   return mix(near, far, w.z);
 }
 fn openpbr_table_dielectric(coords: vec3f) -> f32 { return table(0u, vec3u(${dielectric.width}u, ${dielectric.height}u, ${dielectric.depth}u), coords); }
-fn openpbr_table_conductor(coords: vec2f) -> f32 { return table(${dielectric.data.length}u, vec3u(${conductor.width}u, ${conductor.height}u, 1u), vec3f(coords, 0.5)); }
+fn openpbr_table_conductor(coords: vec2f) -> f32 { return table(${dielectric.data.length}u, vec3u(${conductor.width}u, ${conductor.height}u, 1u), vec3f(coords, 0.5)); }`;
+
+/** The host's part: the tables in a buffer, filtered by hand, so that the precision is that of the arithmetic. */
+const host = (transmission: boolean) =>
+  wgslModule(
+    'test/host',
+    /* wgsl */ `
+struct Case { wo: vec4f, wi: vec4f, u: vec4f }
+struct Result { f: vec3f, pdf: f32, together: vec4f, wi: vec3f, sample_pdf: f32, weight: vec3f, valid: f32, emission: vec3f, opacity: f32, albedo: vec4f }
+@group(0) @binding(0) var<storage, read> tables: array<f32>;
+@group(0) @binding(1) var<storage, read> materials: array<OpenPbrParameters>;
+@group(0) @binding(2) var<storage, read> cases: array<Case>;
+@group(0) @binding(3) var<storage, read_write> results: array<Result>;
+
+${TABLES_WGSL}
 
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= arrayLength(&cases)) { return; }
@@ -87,9 +98,7 @@ export const gpuShader = (flags: OpenPbrFlags) =>
 
 /** Runs the public WGSL functions over the cases on the test device. */
 export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Promise<GpuResult[]> {
-  const tables = new Float32Array(dielectric.data.length + conductor.data.length);
-  tables.set(dielectric.data);
-  tables.set(conductor.data, dielectric.data.length);
+  const tables = tableData();
   const materials = openPbrStruct.allocate(cases.length);
   cases.forEach((one, i) => packOpenPbr(materials, i, one.parameters));
   const directions = new Float32Array(

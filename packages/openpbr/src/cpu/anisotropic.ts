@@ -1,14 +1,11 @@
 import type { OpenPbrVector } from '../parameters/index';
-import {
-  OPENPBR_ANISOTROPIC_AROUND,
-  OPENPBR_ANISOTROPIC_HEIGHTS,
-  OPENPBR_ANISOTROPIC_MIRRORS,
-} from '../tables/anisotropic_facets.wesl';
+import { OPENPBR_ANISOTROPIC_FACETS, OPENPBR_ANISOTROPIC_MIRRORS } from '../tables/anisotropic_facets.wesl';
 import { seenFacets } from './conic';
+import { conductorLoss } from './energy';
 import { fresnelDielectric } from './fresnel';
-import { ggxSample, type Slopes } from './ggx';
+import type { Slopes } from './ggx';
 import { facetSeen, insideEnergy, type Kept } from './inside';
-import { clamp, dot } from './vector';
+import { clamp, dot, length2, normalize } from './vector';
 
 /**
  * Albedos of reflection and transmission by single scattering of a dielectric with an anisotropic highlight, seen from
@@ -19,28 +16,48 @@ import { clamp, dot } from './vector';
 export const anisotropicEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): Kept =>
   eta < 1 ? insideEnergy(eta, alpha, wo) : fromOutside(eta, alpha, wo);
 
-/**
- * Reflection is summed over the facets that reflect upwards, since it has an edge; transmission, which has none, over
- * the whole cap.
- */
+/** Reflection is the mean over facets that reflect upwards, since it has an edge, times what mirrors reflect. */
 function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const wo: OpenPbrVector = [given[0], given[1], Math.max(given[2], 1e-5)];
   const { upwards, sum } = seenFacets(alpha, wo);
   const reflectance = (h: OpenPbrVector): number => fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
   let reflected = 0;
-  sum(
-    OPENPBR_ANISOTROPIC_MIRRORS,
-    upwards,
-    upwards,
-    (weight, h) => (reflected += weight * reflectance(h) * Math.max(facetSeen(eta, alpha, wo, h)[0], 0)),
-  );
-  const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
-  let through = 0;
-  OPENPBR_ANISOTROPIC_HEIGHTS.forEach(([height, weight], k) => {
-    for (let i = 0; i < OPENPBR_ANISOTROPIC_AROUND; i++) {
-      const h = ggxSample(alpha, wo, [turn + (i + 0.382 * k) / OPENPBR_ANISOTROPIC_AROUND, height]);
-      through += weight * (1 - reflectance(h)) * facetSeen(eta, alpha, wo, h)[1];
-    }
+  let mirrored = 1e-20;
+  sum(OPENPBR_ANISOTROPIC_MIRRORS, upwards, upwards, (weight, h) => {
+    const mirror = weight * Math.max(facetSeen(eta, alpha, wo, h)[0], 0);
+    reflected += mirror * reflectance(h);
+    mirrored += mirror;
   });
-  return [reflected, through];
+  const roughness = Math.sqrt(length2(alpha[0], alpha[1]) / Math.SQRT2);
+  const kept = 1 - conductorLoss(alpha, roughness, wo, wo[2]);
+  return [(reflected / mirrored) * kept, transmitted(eta, alpha, wo, reflectance)];
+}
+
+/**
+ * The mean over all visible facets: cos χ (sin ψ p̂ + cos ψ ẑ) + sin χ q̂ where they are stretched to a round highlight, p̂
+ * towards the view. Even in sin (ψ - ψ of the view) and in sin χ, times the cosine of χ; denser at the ends.
+ */
+function transmitted(eta: number, alpha: Slopes, wo: OpenPbrVector, reflectance: (h: OpenPbrVector) => number): number {
+  const flat = [alpha[0] * wo[0], alpha[1] * wo[1]] as const;
+  const tilt = Math.atan2(length2(...flat), wo[2]);
+  const azimuth = length2(...flat) > 1e-10 ? Math.atan2(flat[1], flat[0]) : 0;
+  const [cos, sin] = [Math.cos(azimuth), Math.sin(azimuth)];
+  let through = 0;
+  let all = 0;
+  for (let i = 0; i < OPENPBR_ANISOTROPIC_FACETS; i++) {
+    const u = (i + 0.5) / OPENPBR_ANISOTROPIC_FACETS;
+    const v = (i * 0.618034 + 0.25) % 1;
+    const psi = tilt + Math.asin(clamp((1 + Math.cos(tilt)) * u * u * (3 - 2 * u) - 1, -1, 1));
+    const chi = Math.asin(clamp(2 * v * v * (3 - 2 * v) - 1, -1, 1));
+    const weight = Math.cos(chi) * u * (1 - u) * v * (1 - v);
+    const along = Math.cos(chi) * Math.sin(psi);
+    const h = normalize([
+      alpha[0] * (along * cos - Math.sin(chi) * sin),
+      alpha[1] * (along * sin + Math.sin(chi) * cos),
+      Math.max(Math.cos(chi) * Math.cos(psi), 0),
+    ]);
+    through += weight * (1 - reflectance(h)) * facetSeen(eta, alpha, wo, h)[1];
+    all += weight;
+  }
+  return through / all;
 }

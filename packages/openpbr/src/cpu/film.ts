@@ -1,4 +1,5 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
+import { conductorLoss } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxSample, ggxMasking, ggxMaskingShadowing, type Slopes } from './ggx';
 import { clamp, dot, length2, rgb } from './vector';
@@ -56,6 +57,11 @@ export function prepareFilm(
           [1, 0, 0],
           [0, 1, 0],
           [0, 0, 1],
+        ],
+        sines: [
+          [0, 0, 0],
+          [0, 0, 0],
+          [0, 0, 0],
         ],
       }
     : FILM_BANDS;
@@ -128,38 +134,56 @@ export function filmReflectance(
   const waves = bands.wavenumbers.map((wavenumber) => {
     const phase = 2 * Math.PI * length * wavenumber;
     let sum = 0;
+    let later = 0;
     for (const [r12, r23] of faces) {
       const a = r12 * r12;
       const b = r23[0] * r23[0] + r23[1] * r23[1];
       const contrast = Math.max(1 - a * b, 1e-7);
       const x = r12 * (r23[0] * Math.cos(phase) - r23[1] * Math.sin(phase));
+      const y = r12 * (r23[0] * Math.sin(phase) + r23[1] * Math.cos(phase));
+      const denominator = contrast * (1 + coherence * coherence * a * b + 2 * coherence * x);
       sum +=
         ((a + b) * (1 - coherence * coherence * a * b) -
           2 * a * b * (1 - coherence * coherence) +
           2 * coherence * contrast * x) /
-        (contrast * (1 + coherence * coherence * a * b + 2 * coherence * x));
+        denominator;
+      later += (2 * coherence * (1 - a) * (1 - b) * y) / denominator;
     }
-    return sum / 2;
+    return [sum / 2, later / 2] as const;
   });
-  return rgb((i) =>
-    clamp(
-      (bands.weights[i] as readonly number[]).reduce((sum, weight, band) => sum + weight * (waves[band] as number), 0),
+  return rgb((i) => {
+    const [weights, sines] = [bands.weights[i]!, bands.sines[i]!];
+    return clamp(
+      waves.reduce((sum, [now, later], band) => sum + weights[band]! * now + sines[band]! * later, 0),
       0,
       1,
-    ),
-  );
+    );
+  });
 }
 
 /** Reflectance of the film on the dielectric for a facet seen at the cosine `c`; twin of `openpbr_film_dielectric`. */
 export const filmFacet = (film: Film, c: number): OpenPbrColor =>
   filmReflectance(film, [film.base, 0], (1 - c * c) * film.viewer);
 
-/**
- * Where along the cap of visible normals, and how much: Gauss and Legendre's; around it, four places whose cosines are
- * Chebyshev's.
- */
-const HEIGHTS = [0.06943184, 0.33000948, 0.66999052, 0.93056816];
-const PARTS = [0.04348186, 0.08151814, 0.08151814, 0.04348186];
+/** Facets that a film's changes are summed over: so many rings of the cap of visible normals, and facets of each. */
+export type FilmFacets = readonly [rings: 2 | 3, around: 3 | 4];
+
+/** More where light goes through the surface, and most from inside, where total reflection has an edge. */
+export const filmFacets = (p: OpenPbrParameters, inside: boolean): FilmFacets =>
+  inside ? [3, 4] : p.transmission_weight > 0 || p.subsurface_weight > 0 ? [3, 3] : [2, 3];
+
+/** Where along the cap the rings are, and how much they count: Gauss and Legendre's. */
+const RINGS = {
+  2: [
+    [0.21132487, 1 / 2],
+    [0.78867513, 1 / 2],
+  ],
+  3: [
+    [0.11270167, 5 / 18],
+    [0.5, 8 / 18],
+    [0.88729833, 5 / 18],
+  ],
+} as const;
 
 /** What the film changes of the albedos of an interface; twin of the WGSL struct `OpenPbrFilmChange`. */
 export interface FilmChange {
@@ -172,36 +196,53 @@ export interface FilmChange {
 }
 
 /**
- * Sums over sixteen facets as they are seen; twin of `openpbr_film_sums` with `openpbr_film_change`.
+ * Sums over facets as they are seen, around the cap at places whose cosines are Chebyshev's; twin of
+ * `openpbr_film_sums` with `openpbr_film_change`. What is reflected is a mean over what mirrors reflect upwards, which
+ * is tabulated.
  *
  * @param eta Relative index of the interface without the film.
  * @param albedo Its directional albedo.
+ * @param facets From {@link filmFacets}.
  */
-export function filmChange(film: Film, eta: number, albedo: number, alpha: Slopes, wo: OpenPbrVector): FilmChange {
+export function filmChange(
+  film: Film,
+  eta: number,
+  albedo: number,
+  alpha: Slopes,
+  wo: OpenPbrVector,
+  [rings, around]: FilmFacets,
+): FilmChange {
   if (film.weight <= 0) return { more: [0, 0, 0], direct: [1, 1, 1], pass: [1, 1, 1], difference: [0, 0, 0] };
   const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
-  const more = [0, 0, 0];
+  const reflected = [0, 0, 0];
   const through = [0, 0, 0];
   let plain = 0;
-  for (let i = 0; i < 16; i++) {
-    const h = ggxSample(alpha, wo, [turn + 0.0625 + 0.25 * i, HEIGHTS[i >> 2] as number]);
-    const c = clamp(dot(wo, h), 0, 1);
-    const wi: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
-    const part = PARTS[i >> 2] as number;
-    const seen = wi[2] > 0 ? (part * ggxMaskingShadowing(alpha, wo, wi)) / ggxMasking(alpha, wo) : 0;
-    const clear = fresnelDielectric(eta, c);
-    const color = filmFacet(film, c);
-    plain += part * (1 - clear);
-    for (const k of [0, 1, 2] as const) {
-      const change = film.weight * (color[k] - clear);
-      more[k] = (more[k] as number) + seen * change;
-      through[k] = (through[k] as number) + part * change;
+  let mirrored = 0;
+  for (const [height, ring] of RINGS[rings]) {
+    const part = ring / around;
+    for (let i = 0; i < around; i++) {
+      const h = ggxSample(alpha, wo, [turn + (i + 0.25) / around, height]);
+      const c = clamp(dot(wo, h), 0, 1);
+      const wi: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
+      const seen = wi[2] > 0 ? (part * ggxMaskingShadowing(alpha, wo, wi)) / ggxMasking(alpha, wo) : 0;
+      const clear = fresnelDielectric(eta, c);
+      const color = filmFacet(film, c);
+      plain += part * (1 - clear);
+      mirrored += seen;
+      for (const k of [0, 1, 2] as const) {
+        const change = film.weight * (color[k] - clear);
+        reflected[k] = (reflected[k] as number) + seen * change;
+        through[k] = (through[k] as number) + part * change;
+      }
     }
   }
+  const roughness = Math.sqrt(length2(alpha[0], alpha[1]) / Math.SQRT2);
+  const kept = (1 - conductorLoss(alpha, roughness, wo, Math.max(wo[2], 1e-5))) / Math.max(mirrored, 1e-20);
+  const more = rgb((i) => kept * (reflected[i] as number));
   const part = rgb((i) => (through[i] as number) / Math.max(plain, 1e-5));
-  const taken = rgb((i) => (more[i] as number) / Math.max(1 - albedo, 1e-5));
+  const taken = rgb((i) => more[i] / Math.max(1 - albedo, 1e-5));
   return {
-    more: rgb((i) => more[i] as number),
+    more,
     direct: rgb((i) => Math.max(1 - part[i], 0)),
     pass: rgb((i) => Math.max(1 - taken[i], 0)),
     difference: rgb((i) => part[i] - taken[i]),

@@ -4,7 +4,7 @@ import { interfaceEnergy, isOverOpaque, isSummed } from './dielectric';
 import { diffuseEven, diffuseGain, diffuseGrazing } from './diffuse';
 import { energyAlbedoMean, conductorLoss, conductorLossMean, anisotropicAlbedoMean } from './energy';
 import { dielectricEpsilon, fresnelMetal, fresnelMetalMean } from './fresnel';
-import { filmReflectance, filmChange, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
+import { filmReflectance, filmChange, filmFacets, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { prepareFuzz, type Fuzz } from './fuzz';
 import { ggxAlpha, ggxBound, isSmooth, type Slopes } from './ggx';
 import { mix, mixInterfaces, mixThin, prepareHaze, type Haze } from './haze';
@@ -171,9 +171,10 @@ export function prepareBsdf(
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   // From inside nothing opaque lies beyond it.
   const uncoated = interfaceOf(inside ? { ...outer, transmission_weight: 1 } : outer);
-  const filmed = filmChange(film, (1 + face.epsilon) / (1 - face.epsilon), face.albedo, alpha, wo);
+  const facets = filmFacets(p, inside);
+  const filmed = filmChange(film, (1 + face.epsilon) / (1 - face.epsilon), face.albedo, alpha, wo, facets);
   const clear = inside
-    ? filmChange(film, (1 + uncoated.epsilon) / (1 - uncoated.epsilon), uncoated.albedo, alpha, wo)
+    ? filmChange(film, (1 + uncoated.epsilon) / (1 - uncoated.epsilon), uncoated.albedo, alpha, wo, facets)
     : filmed;
   const through = prepareTransmission(
     outer,
@@ -210,8 +211,8 @@ export function prepareBsdf(
   );
   const beneath = rgb((i) => transmission.multiscatter[i] + subsurface.through * subsurface.color[i] * filmed.pass[i]);
   const down = sum(beneath);
-  const facets = sum(specular) + sum(transmission.albedo);
-  const all = facets + sum(spread) + down;
+  const byFacets = sum(specular) + sum(transmission.albedo);
+  const all = byFacets + sum(spread) + down;
   const meanOf = (slopes: Slopes, r: number) =>
     anisotropicAlbedoMean(face.epsilon, slopes, r, energyAlbedoMean(face.epsilon, r));
   const first = meanOf(alpha, roughness);
@@ -234,7 +235,7 @@ export function prepareBsdf(
   return {
     alpha,
     bound: transmission.share > 0 ? 1 : ggxBound(alpha, wo),
-    specularProbability: all > 0 ? facets / all : 0.5,
+    specularProbability: all > 0 ? byFacets / all : 0.5,
     diffuseScale: diffuse * coupling,
     subsurface: { ...subsurface, back: subsurface.back * coupling, through: subsurface.through * coupling },
     diffuseColor: p.base_color,
@@ -262,7 +263,7 @@ export function prepareBsdf(
     film,
     filmPass: filmed.pass,
     transmission,
-    thinChance: facets > 0 ? sum(specular) / facets : 1,
+    thinChance: byFacets > 0 ? sum(specular) / byFacets : 1,
     below: down > 0 ? down / (down + sum(spread)) : 0,
     coat,
     fuzz,

@@ -37,7 +37,10 @@ export interface OpenPbrFlags {
   readonly OPENPBR_THIN_SUBSURFACE: boolean;
   /** Thin walls among what lets light through. */
   readonly OPENPBR_THIN_WALLED: boolean;
-  /** The table of the losses of mirrors is read: OPENPBR_METAL, OPENPBR_THIN_WALLED or OPENPBR_INNER. */
+  /**
+   * The table of the losses of mirrors is read: OPENPBR_METAL, OPENPBR_THIN_WALLED, OPENPBR_INNER, OPENPBR_THIN_FILM or
+   * OPENPBR_ANISOTROPY.
+   */
   readonly OPENPBR_LOSSES: boolean;
   readonly OPENPBR_COAT: boolean;
   /** A thin film on the base; comes with OPENPBR_METAL or OPENPBR_DIELECTRIC. */
@@ -152,7 +155,7 @@ export function requiredFeatures(
     OPENPBR_SUBSURFACE: below.length > 0,
     OPENPBR_THIN_SUBSURFACE: thinBelow,
     OPENPBR_THIN_WALLED: thin,
-    OPENPBR_LOSSES: metal || thin || inner,
+    OPENPBR_LOSSES: metal || thin || inner || anisotropic || (base && all.some(film)),
     OPENPBR_COAT: coat,
     OPENPBR_THIN_FILM: base && all.some(film),
     OPENPBR_FUZZ: fuzz,

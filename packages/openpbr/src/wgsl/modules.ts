@@ -164,9 +164,9 @@ export const openpbrSubsurface: WgslModule = subsurface;
  * complex index by its reflectance and edge tint (Gulbrandsen 2014).
  *
  * For a band of Lorentzian shape over wavenumbers the spectrum's integral is Airy's sum with a reflection that fades
- * with the path, in closed form: eight such bands stand for the visible spectrum, and give red, green and blue
- * (`FILM_BANDS`), with no aliasing however thick the film. From inside, light beyond the critical angle is reflected
- * whatever the film.
+ * with the path, in closed form: four such bands of complex weights stand for the visible spectrum, and give red, green
+ * and blue (`FILM_BANDS`), with no aliasing however thick the film. From inside, light beyond the critical angle is
+ * reflected whatever the film.
  */
 export const openpbrFilm: WgslModule = film;
 
