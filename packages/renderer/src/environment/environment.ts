@@ -1,4 +1,5 @@
 import type { Environment, LatLongEnvironment } from '@glanz/scene';
+import { ENVIRONMENT_ROW_START } from '../storage/layout';
 
 /** What the GPU needs to know about the environment. */
 export interface EnvironmentData {
@@ -10,8 +11,9 @@ export interface EnvironmentData {
   readonly rotation: readonly [number, number];
   readonly visible: boolean;
   /**
-   * Importance cells, RGBA: distribution within the row, distribution of the rows, density over the unit square, 0;
-   * absent when sampling by the BSDF alone is as good.
+   * Importance cells, RGBA: distribution within the row, distribution of the rows, density over the unit square, and
+   * where searches of both distributions begin, see {@link searchStarts}; absent when sampling by the BSDF alone is as
+   * good.
    */
   readonly table?: { readonly width: number; readonly height: number; readonly data: Float32Array<ArrayBuffer> };
   /** Mean luminance over the sphere. */
@@ -30,7 +32,7 @@ interface PreparedImage {
   readonly mean: number;
 }
 
-const MAX_CELLS = [1024, 512] as const;
+const MAX_CELLS = [ENVIRONMENT_ROW_START, 512] as const;
 
 const luminance = (r: number, g: number, b: number) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
@@ -206,6 +208,23 @@ function* cellLuminance(
 }
 
 /**
+ * Where the search for a number in a distribution begins (the guide table of Chen and Asau 1974, "On Generating Random
+ * Variates from an Empirical Distribution"): of each of 2ⁿ equal bins of 0 to 1, as many as there are cells or fewer,
+ * the first cell that ends above the bin's lower edge. A power of two, since a number times that is exact: shaders find
+ * the same bin.
+ */
+function searchStarts(ends: Float32Array): Uint32Array {
+  const bins = 2 ** Math.floor(Math.log2(ends.length));
+  const starts = new Uint32Array(bins);
+  let cell = 0;
+  for (let bin = 0; bin < bins; bin++) {
+    while (cell < ends.length - 1 && (ends[cell] as number) <= bin / bins) cell++;
+    starts[bin] = cell;
+  }
+  return starts;
+}
+
+/**
  * The distribution over cells. Densities are lowered by the mean radiance (MIS compensation, Karlík et al. 2019): what
  * BSDF sampling finds well anyway is left to it.
  */
@@ -233,6 +252,8 @@ function* importance(
   });
   if (!(total > 0 && total < Infinity)) return { mean };
   const data = new Float32Array(width * height * 4);
+  const columns = new Float32Array(width);
+  const rows = new Float32Array(height);
   let above = 0;
   yield* eachRow(width, height, (y) => {
     const row = weights.subarray(y * width, (y + 1) * width);
@@ -242,10 +263,12 @@ function* importance(
     for (let x = 0; x < width; x++) {
       const i = 4 * (y * width + x);
       before += row[x] as number;
-      data[i] = rowTotal > 0 ? before / rowTotal : 1;
-      data[i + 1] = above / total;
+      data[i] = columns[x] = rowTotal > 0 ? before / rowTotal : 1;
+      data[i + 1] = rows[y] = above / total;
       data[i + 2] = ((row[x] as number) / total) * width * height;
     }
+    searchStarts(columns).forEach((start, bin) => (data[4 * (y * width + bin) + 3] = start));
   });
+  searchStarts(rows).forEach((start, bin) => (data[4 * bin * width + 3]! += ENVIRONMENT_ROW_START * start));
   return { table: { width, height, data }, mean };
 }

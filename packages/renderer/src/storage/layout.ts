@@ -274,3 +274,6 @@ export const BINDING_SCALE = bindingWord('scale');
 export const BINDING_ROW_V = bindingWord('row_v');
 export const BINDING_LOG_SIZE = bindingWord('log_size');
 export const BINDING_OFFSET = bindingWord('offset');
+
+/** Cells in a row of the environment's importance table at most; the starts of rows are multiples of it. */
+export const ENVIRONMENT_ROW_START = 1024;

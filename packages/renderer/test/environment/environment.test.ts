@@ -35,6 +35,37 @@ describe('prepareEnvironment', () => {
     expect(Math.abs(Math.floor(best / 1024) - (400.5 * 512) / 1250)).toBeLessThan(1.5);
   });
 
+  it.each([
+    ['a sun', image(300, 150, (x, y) => (x === 33 && y === 20 ? 1e6 : 0.1))],
+    ['dark rows and columns', image(64, 32, (x, y) => (x > 50 && y > 20 ? x * y : 0))],
+    ['random pixels', image(37, 5, (x, y) => ((x * 7919 + y * 104729) % 101) / 50)],
+    ['one column', image(1, 9, (_, y) => y)],
+  ])('tells where the searches of both distributions begin: %s', (_, environment) => {
+    const { width, height, data } = prepareEnvironment(environment).table!;
+    const find = (ends: Float32Array, u: number) => Math.min(ends.findIndex((end) => end > u) >>> 0, ends.length - 1);
+    const bounds = (starts: readonly number[], u: number, cells: number) => {
+      const bins = 2 ** Math.floor(Math.log2(cells));
+      const bin = Math.floor(u * bins);
+      return [starts[bin]!, bin + 1 < bins ? starts[bin + 1]! : cells - 1] as const;
+    };
+    const cell = (x: number, y: number, c: number) => data[4 * (y * width + x) + c]!;
+    const rows = Float32Array.from({ length: height }, (_unused, y) => cell(0, y, 1));
+    const rowStarts = Array.from(rows, (_unused, y) => Math.floor(cell(0, y, 3) / 1024));
+    for (let i = 0; i < 1000; i++) {
+      const u = i / 1000;
+      const y = find(rows, u);
+      const [low, high] = bounds(rowStarts, u, height);
+      expect(y).toBeGreaterThanOrEqual(low);
+      expect(y).toBeLessThanOrEqual(high);
+      const columns = Float32Array.from({ length: width }, (_unused, x) => cell(x, y, 0));
+      const starts = Array.from(columns, (_unused, x) => cell(x, y, 3) % 1024);
+      const v = (i * 0.618034) % 1;
+      const [left, right] = bounds(starts, v, width);
+      expect(find(columns, v)).toBeGreaterThanOrEqual(left);
+      expect(find(columns, v)).toBeLessThanOrEqual(right);
+    }
+  });
+
   it('replaces NaN, infinite and negative pixels', () => {
     const environment = image(4, 2, () => 1);
     environment.data.set([Number.NaN, Infinity, -1]);
