@@ -3,6 +3,7 @@ import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync
 import { join, relative } from 'node:path';
 import { errorsPage } from './manifest.mjs';
 import { TaskError, bin, capture, root } from './process.mjs';
+import { privateNames } from './wesl-private.mjs';
 import { entriesOf, internalDependencies, publishedPackages, topological } from './workspace.mjs';
 
 const cache = join(root, '.cache', 'build');
@@ -36,6 +37,7 @@ function fingerprint(p, dependencies) {
     join(root, 'tools/pipeline/wesl-constants.mjs'),
     join(root, 'tools/pipeline/wesl-names.mjs'),
     join(root, 'tools/pipeline/wesl-parse.mjs'),
+    join(root, 'tools/pipeline/wesl-private.mjs'),
     join(root, 'tools/pipeline/wesl-tokens.mjs'),
     join(root, 'tsconfig.base.json'),
     join(root, 'pnpm-lock.yaml'),
@@ -54,6 +56,7 @@ function fingerprint(p, dependencies) {
     if (existsSync(file)) hash.update(relative(root, file)).update('\0').update(readFileSync(file)).update('\0');
   }
   hash.update(errorsPage(rootManifest) ?? '');
+  hash.update(privateNames(p.dir));
   for (const dependency of dependencies) hash.update(dependency);
   return hash.digest('hex');
 }

@@ -39,8 +39,8 @@ export function closeUp(line: string): string;
 /** Options for {@link compileWesl}. */
 export interface WeslOptions {
   /**
-   * Leaves out comments, empty lines, and spaces that separate nothing, and shortens names inside of functions. Default
-   * false.
+   * Leaves out comments, empty lines, and spaces that separate nothing, and shortens names of one function or file alone.
+   * Default false.
    */
   readonly shrink?: boolean;
 }

@@ -10,6 +10,7 @@ import { dirname, join, relative, resolve, sep } from 'node:path';
 import { exportedConstants, readConstants } from './wesl-constants.mjs';
 import { shortenLocals } from './wesl-names.mjs';
 import { parseWesl } from './wesl-parse.mjs';
+import { shortenPrivate } from './wesl-private.mjs';
 import { WeslError } from './wesl-tokens.mjs';
 
 export { parseWesl, WeslError };
@@ -51,13 +52,15 @@ function apply(text, edits) {
 
 /**
  * The text with gates for the composer, line by line that of the file. @param {boolean} shrink Without comments and
- * spaces that separate nothing, and with short names in functions.
+ * spaces that separate nothing, and with short names for what one function or file alone names.
  */
-function gatedText(text, { edits, comments, tokens }, shrink) {
+function gatedText(text, { edits, comments, tokens }, shrink, file, folder) {
   if (!shrink) return apply(text, edits);
+  const locals = shortenLocals(tokens);
   const bare = apply(text, [
     ...edits,
-    ...shortenLocals(tokens),
+    ...locals,
+    ...shortenPrivate(tokens, file, folder, locals),
     ...comments.map(({ from, to }) => ({ from, to, text: text.slice(from, to).replace(/[^\n]+/g, '') || ' ' })),
   ]);
   return bare.split('\n').map(closeUpGated).join('\n');
@@ -121,8 +124,8 @@ function base64Vlq(value) {
  *
  * @param {string} text
  * @param {string} file Absolute path.
- * @param {{ shrink?: boolean }} options `shrink`: leaves out comments and spaces, joins lines of a block, and shortens names in
- *   functions, for what is published.
+ * @param {{ shrink?: boolean }} options `shrink`: leaves out comments and spaces, joins lines of a block, and shortens names of
+ *   one function or file, for what is published.
  * @returns {{ code: string, map: { version: 3, sources: string[], sourcesContent: string[], names: string[], mappings:
  * string } }}
  * @throws {WeslError}
@@ -171,7 +174,7 @@ export function compileWesl(text, file, { shrink = false } = {}) {
     .replaceAll('_', '-')}`;
   // Lines of the result, with their numbers in the file, from 0.
   const lines = [];
-  for (const [number, line] of gatedText(text, parsed, shrink).split('\n').entries()) {
+  for (const [number, line] of gatedText(text, parsed, shrink, file, folder).split('\n').entries()) {
     // A bracket that closes alone belongs to the line before it, and the first line of a block to what opens it.
     const joined = shrink && (!/[^)\]};]/.test(line) || lines.at(-1)?.[1].endsWith('{'));
     if (joined && lines.length > 0) lines.at(-1)[1] += line;
