@@ -96,6 +96,7 @@ export function kernelFeatures(features: KernelFeatures, camera: Camera, options
       ...viewFlags(camera, options.filter),
       ...biasedFlags(options),
       ...aovFlags(options.aovs),
+      LIGHT_CANDIDATES: options.lightCandidates > 1,
       GUIDE: options.guiding > 0 || features.flags.PANES === true,
       SHADOW_SOFTNESS: features.flags.CATCHER === true && options.shadowSoftness > 0,
     },

@@ -146,6 +146,7 @@ export const RENDER_OPTIONS = {
   multipleScattering: { type: 'boolean', default: true, effect: 'kernel' },
   sampler: { type: 'enum', values: ['blue-noise', 'sobol', 'independent'], default: 'blue-noise', effect: 'kernel' },
   lightSampling: { type: 'enum', values: ['tree', 'power'], default: 'tree', effect: 'kernel' },
+  lightCandidates: { type: 'integer', range: [1, 64], default: 1, effect: 'kernel' },
   shadowTerminator: { type: 'enum', values: ['smooth', 'faceted'], default: 'smooth', effect: 'kernel' },
   textureLodBias: { type: 'number', range: [-32, 32], default: -1, effect: 'uniform' },
   bvhBuilder: { type: 'enum', values: ['auto', 'cpu', 'gpu'], default: 'auto', effect: 'schedule' },

@@ -86,6 +86,10 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
   lightSampling: {
     doc: 'Lights are chosen by their contribution at the shaded point (a light tree), or by power alone.',
   },
+  lightCandidates: {
+    doc: 'Light samples at the first surface of a path, of which one gets a shadow ray: 4 suits rooms with many lamps.',
+    softRange: [1, 16],
+  },
   shadowTerminator: {
     doc: 'Where smooth normals and triangles disagree: light follows the smooth surface, or the triangles.',
   },

@@ -42,6 +42,7 @@ export function packFrame(
     environment_cells: [environment.table?.width ?? 1, environment.table?.height ?? 1],
     lod_bias: options.textureLodBias,
     ...biasedUniforms(options),
+    light_candidates: options.lightCandidates,
     scene_scale: geometry.placement.radius,
     filter_radius: resolveFilter(options.filter).radius,
   });

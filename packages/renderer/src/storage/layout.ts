@@ -48,6 +48,8 @@ export const frameStruct = struct('Frame', {
   area_light_count: 'u32',
   /** Of the environment over all directions. */
   mean_luminance: 'f32',
+  /** Light samples at the first vertex, of which one is tested for visibility. */
+  light_candidates: 'u32',
 });
 
 /** The part of the image and the samples that one batch works on. */

@@ -320,6 +320,14 @@ const LIGHTS: readonly HashCase[] = [
     options: { lightSampling: 'power' },
   },
   {
+    name: 'candidates for light samples',
+    scene: lit(
+      { ...area, type: 'disk', name: 'disk', radius: 0.7 },
+      { type: 'point', name: 'point', color: white, intensity: 5, position: [0, 3, 2] },
+    ),
+    options: { lightCandidates: 4 },
+  },
+  {
     name: 'light groups',
     scene: () => stage({ emission_luminance: 1 }),
     options: { lightGroups: 'each' },
