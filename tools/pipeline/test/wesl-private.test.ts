@@ -1,3 +1,4 @@
+import { execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
@@ -68,6 +69,26 @@ describe('what is published of the workspace', () => {
   const root = fileURLToPath(new URL('../../..', import.meta.url));
   const text = (path: string, shrink: boolean) =>
     compileWesl(readFileSync(join(root, path), 'utf8'), join(root, path), { shrink }).code;
+
+  it('has no name twice, and none that is in a source', () => {
+    const files = execFileSync('git', ['ls-files', 'packages/*/src/**.wesl'], { cwd: root, encoding: 'utf8' })
+      .trim()
+      .split('\n');
+    const sources = new Set<string>();
+    const given = new Map<string, string>();
+    for (const path of files) {
+      const { tokens } = parseWesl(readFileSync(join(root, path), 'utf8'));
+      for (const { text: token } of tokens) sources.add(token);
+      const folder = join(root, path.split('/src/')[0]!);
+      for (const { from, text: short } of shortenPrivate(tokens, join(root, path), folder, shortenLocals(tokens))) {
+        const name = `${path}: ${tokens.find((token) => token.from === from)!.text}`;
+        expect(given.get(short) ?? name).toBe(name);
+        given.set(short, name);
+      }
+    }
+    expect(given.size).toBeGreaterThan(100);
+    expect([...given.keys()].filter((short) => sources.has(short))).toEqual([]);
+  });
 
   it('has short names, and those that are imported or documented', () => {
     const path = 'packages/renderer/src/environment/environment.wesl';
