@@ -151,7 +151,10 @@ export interface LoadOptions {
 export interface PreviewOptions {
   /** Default `auto`. */
   readonly mode?: PreviewMode;
-  /** Milliseconds that a frame of it may take. Default 12, which leaves room at 60 frames a second. */
+  /**
+   * Milliseconds that a frame of it may take; half of them on a battery that is below 20 % and not charging, where the
+   * browser tells. Default 12, which leaves room at 60 frames a second.
+   */
   readonly budgetMs?: number;
   /** Maximum number of edges of a path, where the preview is smaller than the image. Default 4. */
   readonly maxDepth?: number;

@@ -1,4 +1,5 @@
 import type { PathTracer } from '@glanz/renderer';
+import { watchBattery } from './battery';
 import { previewWeight } from './crossfade';
 import type { Display, GpuImage } from './display';
 import { Edits } from './edits';
@@ -52,6 +53,7 @@ export class RenderLoop {
   readonly #visibility: Visibility;
   readonly #keeper = new FilmKeeper();
   readonly #preview: PreviewController;
+  readonly #saving = watchBattery();
   readonly #reuse: PreviewReuse;
   #tracer: PathTracer | undefined;
   #state: ViewerState = 'empty';
@@ -299,7 +301,7 @@ export class RenderLoop {
     const stepped = this.#host.step(Math.max(0, now - this.#lastStep) / 1000);
     this.#lastStep = now;
     const full = this.imageSize;
-    const plan = this.#preview.plan(full[0] * full[1]);
+    const plan = this.#preview.plan(full[0] * full[1], this.#saving());
     const turned = stepped || this.#dirtyCamera;
     const edited = this.edits.size > 0;
     const changed = turned || edited;

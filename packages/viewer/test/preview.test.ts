@@ -3,12 +3,12 @@ import { previewWeight } from '../src/crossfade';
 import { DIVISORS, PreviewController } from '../src/preview';
 
 /** Drives a controller by a GPU that needs `fixed` ms a frame and `nanoseconds` a path. */
-function settled(fixed: number, nanoseconds: number, pixels: number, budget = 12) {
+function settled(fixed: number, nanoseconds: number, pixels: number, budget = 12, saving = false) {
   const controller = new PreviewController(budget);
-  let plan = controller.plan(pixels);
+  let plan = controller.plan(pixels, saving);
   let worst = 0;
   for (let i = 0; i < 120; i++) {
-    plan = controller.plan(pixels);
+    plan = controller.plan(pixels, saving);
     const paths = (pixels / plan.divisor ** 2) * plan.samples;
     const milliseconds = fixed + (paths * nanoseconds) / 1e6;
     if (i > 10) worst = Math.max(worst, milliseconds);
@@ -34,6 +34,14 @@ describe('PreviewController', () => {
     const larger = DIVISORS[DIVISORS.indexOf(plan.divisor as 1) - 1];
     if (larger)
       expect(fixed + (pixels / larger ** 2) * (nanoseconds / 1e6)).toBeGreaterThan(0.75 * (larger >= 4 ? 30 : 12));
+  });
+
+  it('keeps to half of it where energy is saved', () => {
+    const { plan, worst } = settled(0.3, 3, 1280 * 720, 12, true);
+    expect(worst).toBeGreaterThan(0.3);
+    expect(worst).toBeLessThanOrEqual(6);
+    expect(settled(0.3, 3, 1280 * 720).worst).toBeGreaterThan(6);
+    expect(plan).toEqual(settled(0.3, 3, 1280 * 720, 6).plan);
   });
 
   it('shows the whole image where the GPU is fast, with several samples', () => {
