@@ -3,7 +3,7 @@ import { OPENPBR_ANISOTROPIC_FACETS, OPENPBR_ANISOTROPIC_MIRRORS } from '../tabl
 import { seenFacets } from './conic';
 import { conductorLoss } from './energy';
 import { fresnelDielectric } from './fresnel';
-import type { Slopes } from './ggx';
+import { ggxRoughness, type Slopes } from './ggx';
 import { facetSeen, insideEnergy, type Kept } from './inside';
 import { clamp, dot, length2, normalize } from './vector';
 
@@ -28,8 +28,7 @@ function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
     reflected += mirror * reflectance(h);
     mirrored += mirror;
   });
-  const roughness = Math.sqrt(length2(alpha[0], alpha[1]) / Math.SQRT2);
-  const kept = 1 - conductorLoss(alpha, roughness, wo, wo[2]);
+  const kept = 1 - conductorLoss(alpha, ggxRoughness(alpha), wo, wo[2]);
   return [(reflected / mirrored) * kept, transmitted(eta, alpha, wo, reflectance)];
 }
 

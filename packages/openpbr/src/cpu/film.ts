@@ -1,7 +1,7 @@
 import type { OpenPbrColor, OpenPbrParameters, OpenPbrVector } from '../parameters/index';
 import { conductorLoss } from './energy';
 import { dielectricEpsilon, fresnelDielectric } from './fresnel';
-import { ggxSample, ggxMasking, ggxMaskingShadowing, type Slopes } from './ggx';
+import { ggxSample, ggxMasking, ggxMaskingShadowing, ggxRoughness, type Slopes } from './ggx';
 import { clamp, dot, length2, rgb } from './vector';
 import { FILM_BANDS, type FilmBands } from '../tables/film';
 
@@ -236,8 +236,7 @@ export function filmChange(
       }
     }
   }
-  const roughness = Math.sqrt(length2(alpha[0], alpha[1]) / Math.SQRT2);
-  const kept = (1 - conductorLoss(alpha, roughness, wo, Math.max(wo[2], 1e-5))) / Math.max(mirrored, 1e-20);
+  const kept = (1 - conductorLoss(alpha, ggxRoughness(alpha), wo, Math.max(wo[2], 1e-5))) / Math.max(mirrored, 1e-20);
   const more = rgb((i) => kept * (reflected[i] as number));
   const part = rgb((i) => (through[i] as number) / Math.max(plain, 1e-5));
   const taken = rgb((i) => more[i] / Math.max(1 - albedo, 1e-5));
