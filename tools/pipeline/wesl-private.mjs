@@ -1,5 +1,5 @@
 // Short names for what one shader file declares and nothing else names: functions, structs, constants and private
-// variables of a module that stand in no other file of the workspace's sources, pages and examples. Names that other
+// variables of a module that stand in no other source, page, example or tool of the workspace. Names that other
 // modules, hosts or users' own WGSL may use are in some other file, or in what documents them.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, sep } from 'node:path';
@@ -7,8 +7,8 @@ import { shortenLocals } from './wesl-names.mjs';
 import { parseWesl } from './wesl-parse.mjs';
 
 const DECLARES = new Set(['fn', 'struct', 'const', 'alias']);
-const SOURCES = /\.(?:wesl|ts|md)$/;
-const SKIPPED = new Set(['node_modules', 'dist', 'test', '.cache', 'public', 'api']);
+const SOURCES = /\.(?:wesl|[cm]?[jt]sx?|vue|svelte|html|md)$/;
+const SKIPPED = new Set(['node_modules', 'dist', 'test', '.cache', 'cache', 'public', 'api']);
 
 /** Files that may name what a shader declares. */
 function* sourceFiles(folder) {
@@ -28,7 +28,7 @@ function namesOf(workspace) {
   let index = indices.get(workspace);
   if (index) return index;
   index = new Map();
-  for (const folder of ['packages', 'apps/docs'])
+  for (const folder of ['packages', 'apps', 'tools'].filter((name) => existsSync(join(workspace, name))))
     for (const file of sourceFiles(join(workspace, folder)))
       for (const name of new Set(readFileSync(file, 'utf8').match(/\b[A-Za-z_]\w{3,}/g)))
         index.set(name, index.has(name) ? null : file);

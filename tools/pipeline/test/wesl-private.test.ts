@@ -15,7 +15,6 @@ afterAll(() => made.forEach((folder) => rmSync(folder, { recursive: true })));
 function shortened(files: Readonly<Record<string, string>>, name = 'packages/light/src/sky.wesl'): string {
   const folder = mkdtempSync(join(tmpdir(), 'glanz-wesl-'));
   made.push(folder);
-  mkdirSync(join(folder, 'apps/docs'), { recursive: true });
   writeFileSync(join(folder, 'pnpm-workspace.yaml'), '');
   for (const [path, text] of Object.entries(files)) {
     mkdirSync(dirname(join(folder, path)), { recursive: true });
@@ -44,7 +43,7 @@ describe('names that no other file has', () => {
 
   it('stay where another shader, a host, a page or an example has them, and so do bindings', () => {
     const sky =
-      '@group(0) @binding(0) var<storage> sky_table: array<f32>; fn sky_imported() {} fn sky_given() {} fn sky_named() {} fn sky_shown() {}';
+      '@group(0) @binding(0) var<storage> sky_table: array<f32>; fn sky_imported() {} fn sky_given() {} fn sky_named() {} fn sky_shown() {} fn sky_used() {} fn sky_drawn() {}';
     expect(
       shortened({
         'packages/light/src/sky.wesl': sky,
@@ -52,6 +51,8 @@ describe('names that no other file has', () => {
         'packages/other/src/host.wesl': 'fn sky_given() {}',
         'packages/light/src/pipelines.ts': "export const ENTRY = 'sky_named';",
         'apps/docs/guide/shaders.md': '`sky_shown` is public',
+        'apps/docs/examples/sky.vue': '<script>const wgsl = `sky_used()`</script>',
+        'tools/show/sky.mjs': 'sky_drawn',
       }),
     ).toBe(sky);
   });
