@@ -83,7 +83,7 @@ export interface PathTracerOptions {
    * Unbiased: number of light samples that are drawn at the first surface of a path; one of them, chosen by what it would
    * contribute without shadows, gets the shadow ray (resampled importance sampling, Talbot et al. 2005). 1 to 64, default
    * 1. 4 lowers the noise where many lights or lights of very different directions matter and are mostly visible: by 40 %
-   * in a room with 74 lamps, for a fifth more time per sample. Where the brightest light is hidden, noise rises.
+   * in a room with 74 lights, for a fifth more time per sample. Where the brightest light is hidden, noise rises.
    */
   readonly lightCandidates?: number;
   /** Biased: maximum number of bounces of each kind, besides `maxDepth`. What is not given is not limited. */

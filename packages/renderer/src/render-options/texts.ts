@@ -87,7 +87,7 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     doc: 'Lights are chosen by their contribution at the shaded point (a light tree), or by power alone.',
   },
   lightCandidates: {
-    doc: 'Light samples at the first surface of a path, of which one gets a shadow ray: 4 suits rooms with many lamps.',
+    doc: 'Light samples at the first surface of a path, of which one gets a shadow ray: 4 suits scenes with many lights.',
     softRange: [1, 16],
   },
   shadowTerminator: {

@@ -238,6 +238,8 @@ export const LIGHT_NODE_DISTANT = 2;
 /** Frame.background bits: the environment is hidden from the camera; misses leave the pixel transparent. */
 export const BACKGROUND_HIDDEN = 1;
 export const BACKGROUND_TRANSPARENT = 2;
+/** Cells in a row of the environment's importance table at most; where searches of rows begin is stored times this. */
+export const ENVIRONMENT_ROW_START = 1024;
 
 // The modules of structs, by the names that shaders import.
 export const Frame = frameStruct.module;
@@ -276,6 +278,3 @@ export const BINDING_SCALE = bindingWord('scale');
 export const BINDING_ROW_V = bindingWord('row_v');
 export const BINDING_LOG_SIZE = bindingWord('log_size');
 export const BINDING_OFFSET = bindingWord('offset');
-
-/** Cells in a row of the environment's importance table at most; the starts of rows are multiples of it. */
-export const ENVIRONMENT_ROW_START = 1024;

@@ -12,13 +12,13 @@ afterAll(() => expectNoGpuErrors());
 
 const SIZE = 16;
 
-/** A glossy floor below lamps of all brightnesses. `hidden`: the brightest is covered, and the sky has a bright half. */
-function lamps(hidden = false): Scene {
+/** A glossy floor below ten lights of different intensities. `hidden`: the brightest is covered, and the sky has a bright half. */
+function litFloor(hidden = false): Scene {
   const scene = createScene();
   addQuad(scene, 1, 0, { ...lambert(0.8), parameters: { ...lambert(0.8).parameters, specular_weight: 1 } });
   const points = Array.from({ length: 9 }, (_, i): Light => {
     const [x, y] = [Math.sin(2.4 * i), Math.cos(2.4 * i)];
-    return { type: 'point', name: `lamp ${i}`, color: [1, 0.9, 0.8], intensity: 1.5 ** i / 10, position: [x, y, 1] };
+    return { type: 'point', name: `light ${i}`, color: [1, 0.9, 0.8], intensity: 1.5 ** i / 10, position: [x, y, 1] };
   });
   scene.lights.push(...points, {
     type: 'sphere',
@@ -64,8 +64,8 @@ async function measure(scene: Scene, options: Partial<PathTracerOptions>) {
 
 describe('PathTracer with several candidates for light samples', () => {
   it.each([
-    ['all lamps visible', lamps()],
-    ['the brightest lamp hidden, below a sky', lamps(true)],
+    ['all lights visible', litFloor()],
+    ['the brightest light hidden, below a sky', litFloor(true)],
   ])('leaves the mean as it is, and takes most of the noise: %s', async (_, scene) => {
     for (const lightSampling of ['tree', 'power'] as const) {
       const plain = await measure(scene, { lightSampling });
@@ -78,11 +78,11 @@ describe('PathTracer with several candidates for light samples', () => {
   });
 
   it('is as without the option where there is one candidate', async () => {
-    expect(await film(lamps(), 2, { lightCandidates: 1 })).toEqual(await film(lamps(), 2, {}));
+    expect(await film(litFloor(), 2, { lightCandidates: 1 })).toEqual(await film(litFloor(), 2, {}));
   });
 
   it('gives the same film, bit for bit, however it is cut into batches', async () => {
-    const whole = await film(lamps(), 2, { lightCandidates: 3 });
-    expect(await film(lamps(), 2, { lightCandidates: 3, pathsInFlight: 128 })).toEqual(whole);
+    const whole = await film(litFloor(), 2, { lightCandidates: 3 });
+    expect(await film(litFloor(), 2, { lightCandidates: 3, pathsInFlight: 128 })).toEqual(whole);
   });
 });

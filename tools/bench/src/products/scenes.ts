@@ -153,7 +153,7 @@ export const PRODUCTS: readonly Product[] = [
   gallery('weave', 'cloth, every yarn woven'),
   gallery('mail', 'mail of metal rings'),
   gallery('amplifier', 'amplifier with a brushed front'),
-  gallery('room', 'room at night with 74 lamps', { model: 'lamps' }),
+  gallery('room', 'room at night with 74 lights', { model: 'lamps' }),
   gallery('wax', 'burning candles', { model: 'candles', notByPeer: SUBSURFACE }),
   gallery('jade', 'knot of jade', { model: 'knot', notByPeer: SUBSURFACE }),
   pushButton('button', 'push-button in a studio', studioEnvironment),
