@@ -2,7 +2,8 @@
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, compact shapes, arrays beyond a
 // binding, animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection,
-// meshes that are replaced), and what saves images, lies beside it and is fetched by import() when it is needed.
+// meshes that are replaced), what filters moving frames, and what saves images, lies beside it and is fetched by import()
+// when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -38,6 +39,7 @@ const LATER = {
   './ldr-environment': 'glanz-viewer.ldr.min.js',
   './load-other': 'glanz-viewer.formats.min.js',
   './prompt': 'glanz-viewer.prompt.min.js',
+  './realtime': 'glanz-viewer.realtime.min.js',
   './gpu-trees': 'glanz-viewer.gpu-trees.min.js',
   './guide-kernels': 'glanz-viewer.guide-kernels.min.js',
   './soft-shadows': 'glanz-viewer.soft-shadows.min.js',
@@ -63,6 +65,7 @@ const SOURCES = {
   './ldr-environment': './src/ldr-environment',
   './load-other': './src/load-other',
   './prompt': '../element/src/prompt',
+  './realtime': './src/realtime',
   '@glanz/openpbr/lobes': '../openpbr/src/wgsl/lobes/index',
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
   './guide-kernels': '../renderer/src/integrator/guide-kernels',
@@ -165,7 +168,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|gpu-trees|guide-kernels|soft-shadows|noise-target|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|compact-shapes|compact-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|realtime|gpu-trees|guide-kernels|soft-shadows|noise-target|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|compact-shapes|compact-kernels|session\/guide-training)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

@@ -194,3 +194,23 @@ test('animations and a ground come from beside the file', async ({ page }) => {
   expect(errors).toEqual([]);
   expect(loaded()).toContain('/glanz-viewer.animation.min.js');
 });
+
+test('what filters moving frames comes from beside the file, with the second movement', async ({ page }) => {
+  const { errors } = await open(page, '/');
+  const filtered = await page.evaluate(async () => {
+    const element = document.querySelector('glanz-viewer')!;
+    const viewer = element.viewer!;
+    viewer.previewMode = 'filtered';
+    let found = false;
+    viewer.on('frame', ({ preview, denoised }) => void (found ||= preview && denoised));
+    const end = performance.now() + 60_000;
+    for (let i = 0; !found && performance.now() < end; i++) {
+      viewer.setOrbit({ theta: 0.1 + 0.01 * (i % 20) }, { immediate: true });
+      await new Promise((resolve) => setTimeout(resolve, 30));
+    }
+    return found;
+  });
+  expect(filtered).toBe(true);
+  expect(errors).toEqual([]);
+  expect(loaded()).toContain('/glanz-viewer.realtime.min.js');
+});

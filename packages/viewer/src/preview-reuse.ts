@@ -1,21 +1,20 @@
-import { isSoftware, type PathTracer } from '@glanz/renderer';
+import type { RealtimeIntegrator } from '@glanz/denoise/temporal';
+import { isSoftware, type PathTracer, type RenderOptions, type RenderProgress } from '@glanz/renderer';
 import type { GpuImage } from './display';
-import type { FrameReuse } from './frame-reuse';
 import type { PreviewMode } from './preview';
 
+type Realtime = RealtimeIntegrator<RenderOptions, RenderProgress>;
+
 /**
- * What moving frames have of those before them: nothing until the filter is loaded and compiled, for which the first
- * movement does not wait. Frees the filter with its tracer.
+ * Chooses what renders moving frames: the tracer, which is progressive, until a realtime integrator over it is loaded and
+ * compiled, for which the first movement does not wait. Frees that with its tracer.
  */
 export class PreviewReuse {
   readonly #mode: () => PreviewMode;
   readonly #device: () => GPUDevice | undefined;
   #tracer: PathTracer | undefined;
-  #filter: FrameReuse | undefined;
+  #realtime: Realtime | undefined;
   #image: GpuImage | undefined;
-  /** Number of the first sample of the film, which differs from frame to frame, and samples of the frame before. */
-  #first = 0;
-  #taken = 0;
   /** The tracer whose first frame was shown: the filter is loaded for those that follow. */
   #shown: PathTracer | undefined;
 
@@ -32,42 +31,37 @@ export class PreviewReuse {
 
   /** Whether the film's samples are not those of the image at rest. */
   get shifted(): boolean {
-    return this.#first > 0;
+    return !!this.#realtime?.shifted;
+  }
+
+  /** A frame of another film is about to be rendered. */
+  begin(tracer: PathTracer): void {
+    if (tracer === this.#shown) this.#follow(tracer);
+    this.#shown = tracer;
   }
 
   /**
-   * A frame of another film is about to be rendered. Frames of the same random numbers would have the same noise, which
-   * would never average out.
+   * Adds a frame's samples to the film, and filters it where that is possible.
+   *
+   * @param edited Whether the scene was edited since the frame before.
    */
-  shift(tracer: PathTracer): void {
-    if (tracer === this.#shown) this.#follow(tracer);
-    this.#shown = tracer;
-    if (!this.#filter) return;
-    this.#first = (this.#first + this.#taken) % 2 ** 30 || 1;
-    this.#taken = 0;
-    tracer.reset({ firstSample: this.#first });
+  async *render(tracer: PathTracer, options: RenderOptions, edited: boolean): AsyncGenerator<RenderProgress> {
+    const realtime = this.#realtime;
+    try {
+      yield* realtime ? realtime.render({ ...options, instancesMoved: edited }) : tracer.render(options);
+    } catch (error) {
+      // The film has its samples; what filters them fails where AOVs were taken away, or the device is lost.
+      if (!(error as { readonly code?: string }).code?.startsWith('denoise')) throw error;
+    }
+    if (realtime === this.#realtime)
+      this.#image = realtime?.filtered
+        ? { buffer: realtime.beautyBuffer, size: [realtime.width, realtime.height] }
+        : undefined;
   }
 
   /** The movement is over: the film begins with its own samples. */
-  rest(tracer: PathTracer): void {
-    this.#first = 0;
-    tracer.reset({ firstSample: 0 });
-  }
-
-  /**
-   * Filters what the film shows.
-   *
-   * @param begun Whether the film has begun again since the frame before.
-   * @param still Whether the camera has not moved since.
-   * @param edited Whether the scene was edited since.
-   */
-  async filter(tracer: PathTracer, begun: boolean, still: boolean, edited: boolean): Promise<void> {
-    const filter = this.#filter;
-    this.#taken = tracer.samples;
-    // Without a history the tracer tells no motion: there is none where the camera does not move.
-    const step = !begun ? 'continues' : tracer.history || still ? 'moves' : 'cuts';
-    const image = await filter?.image(step, edited).catch(() => undefined);
-    if (filter === this.#filter) this.#image = image;
+  rest(): void {
+    this.#realtime?.rest();
   }
 
   /** The film shows something else. */
@@ -78,36 +72,38 @@ export class PreviewReuse {
   /** Frees memory: nothing moves for a while. */
   release(): void {
     this.forget();
-    this.#filter?.release();
+    this.#realtime?.release();
   }
 
   /** Another tracer comes, or none. */
   drop(): void {
     this.#free();
-    this.#first = this.#taken = 0;
     this.#shown = undefined;
   }
 
   #free(): void {
     this.forget();
-    this.#filter?.destroy();
-    this.#tracer = this.#filter = undefined;
+    this.#realtime?.destroy();
+    this.#tracer = this.#realtime = undefined;
   }
 
-  /** Loads the filter of a tracer, where the mode asks for one. */
+  /** Loads the realtime integrator of a tracer, where the mode asks for one. */
   #follow(tracer: PathTracer): void {
     const mode = this.#mode();
     const device = this.#device();
-    if (!device || mode === 'raw' || (mode === 'auto' && isSoftware(device.adapterInfo))) return this.#free();
+    if (!device || mode === 'raw' || (mode === 'auto' && isSoftware(device.adapterInfo))) {
+      this.rest();
+      return this.#free();
+    }
     if (tracer === this.#tracer) return;
     this.#free();
     this.#tracer = tracer;
-    import('./frame-reuse')
-      .then(({ FrameReuse: made }) => made.create(device, tracer))
+    import('./realtime')
+      .then(({ RealtimeIntegrator: made }) => made.create(device, tracer))
       .then(
-        (filter) => {
-          if (tracer === this.#tracer) this.#filter = filter;
-          else filter.destroy();
+        (realtime) => {
+          if (tracer === this.#tracer) this.#realtime = realtime;
+          else realtime.destroy();
         },
         // Frames are shown with their noise.
         () => undefined,

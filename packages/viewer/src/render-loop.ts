@@ -306,7 +306,7 @@ export class RenderLoop {
     const edited = this.edits.size > 0;
     const changed = turned || edited;
     if (turned) {
-      this.#reuse.shift(tracer);
+      this.#reuse.begin(tracer);
       // A preview that does not move keeps its size: samples gather.
       const depth = plan.divisor > 1 ? Math.min(previewDepth, maxDepth) : maxDepth;
       await this.#fit(tracer, full, depth, 1 / plan.divisor);
@@ -322,26 +322,27 @@ export class RenderLoop {
     this.edits.apply(() => this.#edited());
     if (changed) this.#restarted();
     const before = tracer.samples;
-    if (edited && before === 0) this.#reuse.shift(tracer);
+    if (edited && before === 0) this.#reuse.begin(tracer);
     // In its full size it is the image already, and that gets the requested samples.
     const max = this.#whole ? this.#goal : Infinity;
     if (before >= Math.min(PREVIEW_SAMPLES, max) && this.#fresh) return;
     const started = performance.now();
     let samples = before;
-    for await (const progress of tracer.render({
+    let milliseconds = 0;
+    const options = {
       samples: Math.min(before + plan.samples, Math.max(max, before)),
       maxSubmitMs: PREVIEW_SUBMIT_MS,
-    })) {
+    };
+    for await (const progress of this.#reuse.render(tracer, options, edited)) {
       ({ samples } = progress);
+      milliseconds = performance.now() - started;
       if (!this.#visibility.visible) break;
     }
     // A film that an edit has restarted meanwhile has none.
     if (tracer !== this.#tracer || tracer.samples === 0) return;
-    const milliseconds = performance.now() - started;
     if (samples > before) this.#preview.measured(tracer.width * tracer.height, samples - before, milliseconds);
     this.#fresh = true;
-    await this.#reuse.filter(tracer, before === 0, !turned, edited);
-    if (tracer === this.#tracer) this.#draw(milliseconds);
+    this.#draw(milliseconds);
   }
 
   /** The image in full, until it is done or something moves. */
@@ -354,7 +355,7 @@ export class RenderLoop {
       void this.#engine.display()?.keep(image ?? imageOf(tracer), image ? Infinity : tracer.samples, full);
     this.#reuse.forget();
     if (this.#reuse.shifted) {
-      this.#reuse.rest(tracer);
+      this.#reuse.rest();
       this.#fresh = false;
     }
     if (await this.#fit(tracer, full, maxDepth)) this.#fresh = false;

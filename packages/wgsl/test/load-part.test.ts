@@ -20,7 +20,7 @@ const OTHERS = new Set([
   'renderer/src/session/film-session.ts ../film/film-data',
   // Without it, threads do the work; frames keep their noise; there is no prompt; the page's thread reads the model.
   'denoise/src/layer-shapes.ts ./kernels/choose-matrices',
-  'viewer/src/preview-reuse.ts ./frame-reuse',
+  'viewer/src/preview-reuse.ts ./realtime',
   'element/src/element.ts ./prompt',
   'viewer/src/load.ts @glanz/gltf/workers',
   // The component imports no value: what it loads brings the first ones.

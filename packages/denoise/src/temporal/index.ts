@@ -1,6 +1,9 @@
 export { TemporalFilter } from './temporal-filter';
+export { RealtimeIntegrator } from './realtime-integrator';
 export { TEMPORAL_AOVS } from './options';
+export type { FrameIntegrator, RealtimeOptions, RealtimeTracer } from './realtime-integrator';
 export type {
+  FilterableCamera,
   FilterableTracer,
   FilteredImage,
   FrameStep,

@@ -13,7 +13,7 @@ export interface TemporalFilterOptions {
   readonly clampSigmas?: number;
   /** Whether edges and fine textures are smoothed over frames, too. Default true. */
   readonly antialias?: boolean;
-  /** Passes of the spatial filter, 0 to 5; the last one reaches over 2^(passes + 1) pixels. Default 4. */
+  /** Passes of the spatial filter, 0 to 5; the last one reaches over 2^(passes + 1) pixels. Default 3. */
   readonly passes?: number;
   /**
    * Number of samples from which the image equals the film, bit for bit; between 4 samples and this number the image

@@ -118,7 +118,7 @@ export class TemporalFilter {
       maxHistory = 8,
       clampSigmas = 3,
       antialias = true,
-      passes = 4,
+      passes = 3,
       settledSamples = 64,
     }: TemporalFilterOptions = {},
   ): Promise<TemporalFilter> {

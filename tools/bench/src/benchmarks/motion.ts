@@ -1,7 +1,7 @@
 import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { TEMPORAL_AOVS, TemporalFilter } from '@glanz/denoise/temporal';
+import { RealtimeIntegrator, TEMPORAL_AOVS } from '@glanz/denoise/temporal';
 import { PathTracer, requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
 import { timed, type Benchmark, type BenchmarkContext, type BenchmarkResult, type Figure } from '../benchmark';
@@ -200,10 +200,10 @@ async function frames(
   settings: Settings,
   kept: readonly number[],
 ): Promise<Series> {
-  const { width, height, samples, last, restSeconds, clips } = settings;
+  const { samples, last, restSeconds, clips } = settings;
   const tracer = await createTracer(device, product, settings, way === 'raw' ? [] : TEMPORAL_AOVS);
-  const filter = way === 'raw' ? undefined : await TemporalFilter.create(device);
-  await filter?.prepare(width, height);
+  const realtime = way === 'raw' ? undefined : await RealtimeIntegrator.create(device, tracer);
+  const integrator = realtime ?? tracer;
   const images = new Map<number, Float32Array>();
   const milliseconds: number[] = [];
   const clip: Uint8Array[] = [];
@@ -212,21 +212,22 @@ async function frames(
   for (let frame = 0; frame <= last; frame++) {
     const started = performance.now();
     await moves.at(tracer, product, frame);
-    const follows = frame > 0 && (!moves.camera || tracer.history !== undefined);
-    // Other random numbers than those of the frame before, or its noise would never average out.
-    tracer.reset({ firstSample: frame * samples });
-    await add(tracer, samples);
-    const filtered = filter?.filterTracer(tracer, follows ? 'moves' : 'cuts', moves.instances);
+    // Raw frames have other random numbers than those before, as the others have. An edit that changes nothing keeps the
+    // film.
+    if (!realtime) tracer.reset({ firstSample: frame * samples });
+    else if (tracer.samples > 0) tracer.reset();
+    const options = { samples, maxSubmitMs: 100, ...(realtime ? { instancesMoved: moves.instances } : {}) };
+    for await (const progress of integrator.render(options)) void progress;
     await device.queue.onSubmittedWorkDone();
     milliseconds.push(performance.now() - started);
     if (!clips && !kept.includes(frame)) continue;
-    const image = filter && filtered ? await filter.read(filtered) : await tracer.read('beauty');
+    const image = await integrator.read('beauty');
     if (kept.includes(frame)) images.set(frame, image);
     if (clips) clip.push(shownBytes(image));
   }
   const rests = restSeconds > 0 && way === 'raw' && kept.includes(last);
   const rested = rests && { samples: await renderFor(tracer, restSeconds), image: await tracer.read('beauty') };
-  filter?.destroy();
+  realtime?.destroy();
   tracer.destroy();
   return { images, milliseconds, clip, ...(rested ? { rested } : {}) };
 }

@@ -15,8 +15,6 @@ const SHIFT = 0.05;
 
 /** What changes from frame to frame. */
 export interface Movement {
-  /** Whether the camera moves: without it pixels stay where they are, also when an edit ends the tracer's history. */
-  readonly camera: boolean;
   /** Whether instances move. */
   readonly instances: boolean;
   /** Brings a tracer of a product to a frame of the movement. */
@@ -54,18 +52,15 @@ export function orbitCamera({ scene, camera }: ProductScene, frame: number): Cam
 /** Movements by name. */
 export const MOVEMENTS: Readonly<Record<string, Movement>> = {
   orbit: {
-    camera: true,
     instances: false,
     at: (tracer, product, frame) => tracer.setCamera(orbitCamera(product, frame)),
   },
   zoom: {
-    camera: true,
     instances: false,
     at: (tracer, { camera }, frame) => tracer.setCamera(zoomed(camera, frame)),
   },
   // The environment turns; in a room the light itself moves along the ceiling.
   light: {
-    camera: false,
     instances: false,
     at: async (tracer, { scene }, frame) => {
       if (!isRoom(scene)) return tracer.adjustEnvironment({ rotation: frame * STEP });
@@ -77,7 +72,6 @@ export const MOVEMENTS: Readonly<Record<string, Movement>> = {
   },
   // The last instance that emits no light slides back and forth, or the only one.
   instance: {
-    camera: false,
     instances: true,
     at: (tracer, { scene }, frame) => {
       const light = emitter(scene);
@@ -92,7 +86,6 @@ export const MOVEMENTS: Readonly<Record<string, Movement>> = {
   },
   // The material that most instances have gets darker and brighter.
   material: {
-    camera: false,
     instances: false,
     at: (tracer, { scene }, frame) => {
       const counts = scene.materials.map((_, i) => scene.instances.filter(({ material }) => material === i).length);

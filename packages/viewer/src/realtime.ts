@@ -1,0 +1,1 @@
+export { RealtimeIntegrator } from '@glanz/denoise/temporal';
