@@ -5,6 +5,7 @@ export default glanzPackage({
   parameters: 'src/parameters/index.ts',
   wgsl: 'src/wgsl/index.ts',
   lobes: 'src/wgsl/lobes/index.ts',
+  film: 'src/wgsl/thin_film/index.ts',
   cpu: 'src/cpu/index.ts',
   tables: 'src/tables/index.ts',
   gltf: 'src/gltf/index.ts',

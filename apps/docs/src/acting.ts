@@ -7,6 +7,7 @@ import {
   openPbrStruct,
   type OpenPbrParameterName,
 } from '@glanz/openpbr';
+import { openpbrFilm } from '@glanz/openpbr/film';
 import { openpbrLobes } from '@glanz/openpbr/lobes';
 import type { WgslModule } from '@glanz/wgsl';
 
@@ -24,7 +25,7 @@ export function actingParameters(): string[] {
       module.deps.map((dependency) => textOf('module' in dependency ? dependency.module : dependency)).join('')
     );
   };
-  const text = [openpbr, openpbrLobes, openpbrEmission, openpbrOpacity].map(textOf).join('');
+  const text = [openpbr, openpbrFilm, openpbrLobes, openpbrEmission, openpbrOpacity].map(textOf).join('');
   // Those of the draft share a word of the record.
   const fieldOf = (name: OpenPbrParameterName) => (OPENPBR_PARAMETER_SPECS[name].draft ? 'specular_lobes' : name);
   return OPENPBR_PARAMETER_NAMES.filter(

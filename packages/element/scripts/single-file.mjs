@@ -1,9 +1,9 @@
 // Builds the whole element into one file, glanz-viewer.min.js: for pages without a bundler, from any origin. Its
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, compact shapes, arrays beyond a
-// binding, animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection,
-// meshes that are replaced), what filters moving frames, and what saves images, lies beside it and is fetched by import()
-// when it is needed.
+// binding, animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection, thin
+// films, meshes that are replaced), what filters moving frames, and what saves images, lies beside it and is fetched by
+// import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';
@@ -30,6 +30,7 @@ else if (self.name === 'glanz-bvh') {
 const LATER = {
   '@glanz/formats/usd': 'glanz-viewer.usd.min.js',
   '@glanz/openpbr/lobes': 'glanz-viewer.lobes.min.js',
+  '@glanz/openpbr/film': 'glanz-viewer.thin-film.min.js',
   '@glanz/image/environment': 'glanz-viewer.environment.min.js',
   'meshoptimizer/decoder': 'glanz-viewer.meshopt.min.js',
   './save-image': 'glanz-viewer.save.min.js',
@@ -67,6 +68,7 @@ const SOURCES = {
   './prompt': '../element/src/prompt',
   './realtime': './src/realtime',
   '@glanz/openpbr/lobes': '../openpbr/src/wgsl/lobes/index',
+  '@glanz/openpbr/film': '../openpbr/src/wgsl/thin_film/index',
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
   './guide-kernels': '../renderer/src/integrator/guide-kernels',
   './soft-shadows': '../renderer/src/integrator/soft-shadows',

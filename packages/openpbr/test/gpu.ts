@@ -3,6 +3,7 @@ import { runCompute, testDevice } from '@glanz/gpu';
 import type { OpenPbrParameters, OpenPbrVector } from '../src/parameters/index';
 import { OPENPBR_TABLES } from '../src/tables/index';
 import { openpbrLobes } from '../src/wgsl/lobes/index';
+import { openpbrFilm } from '../src/wgsl/thin_film/index';
 import { openpbr, openPbrStruct, packOpenPbr, type OpenPbrFlags } from '../src/wgsl/index';
 
 /** One surface, seen from one direction: a pair to evaluate, and numbers to sample with. */
@@ -94,7 +95,14 @@ ${TABLES_WGSL}
 
 /** The shader text for a set of flags. */
 export const gpuShader = (flags: OpenPbrFlags) =>
-  compose([host(flags.OPENPBR_TRANSMISSION), ...(flags.OPENPBR_LOBES ? [openpbrLobes] : [])], { flags: { ...flags } });
+  compose(
+    [
+      host(flags.OPENPBR_TRANSMISSION),
+      ...(flags.OPENPBR_LOBES ? [openpbrLobes] : []),
+      ...(flags.OPENPBR_THIN_FILM ? [openpbrFilm] : []),
+    ],
+    { flags: { ...flags } },
+  );
 
 /** Runs the public WGSL functions over the cases on the test device. */
 export async function onGpu(flags: OpenPbrFlags, cases: readonly GpuCase[]): Promise<GpuResult[]> {

@@ -8,7 +8,6 @@ export {
   openpbrEmission,
   openpbrEnergy,
   openpbrEon,
-  openpbrFilm,
   openpbrFresnelDielectric,
   openpbrFresnelMetal,
   openpbrFuzz,

@@ -7,7 +7,6 @@ import dielectric from './dielectric.wesl';
 import emission from './emission.wesl';
 import energy from './energy.wesl';
 import eon from './eon.wesl';
-import film from './film.wesl';
 import fresnelDielectric from './fresnel_dielectric.wesl';
 import fresnelMetal from './fresnel_metal.wesl';
 import fuzz from './fuzz.wesl';
@@ -42,7 +41,8 @@ import transmission from './transmission.wesl';
  * bounces on between the facets are sampled by the cosine. The diffuse lobe below the
  * dielectric is weighted by (1 - E(μ_i))(1 - E(μ_o))/(1 - E_mean), which is reciprocal and loses nothing (Ashikhmin,
  * Premože and Shirley 2000; Kelemen and Szirmay-Kalos 2001). A thin film replaces the
- * Fresnel factor, and tints what goes through. A coat and fuzz add a lobe each and scale the rest.
+ * Fresnel factor, and tints what goes through: where OPENPBR_THIN_FILM is set, compose `openpbrFilm` of
+ * `@glanz/openpbr/film` too. A coat and fuzz add a lobe each and scale the rest.
  *
  * Transmission: `OpenPbrSide` says where the viewer is, `inside` the object or not, and the index of refraction of what
  * is outside of it; a thin wall has no inside. A facet, once sampled, reflects or refracts by chance, as its Fresnel
@@ -157,18 +157,6 @@ export const openpbrTransmission: WgslModule = transmission;
  * A thin wall has no interior: its subsurface reflects and transmits diffusely, like paper, split by the anisotropy.
  */
 export const openpbrSubsurface: WgslModule = subsurface;
-
-/**
- * A thin film on the base, below the coat. Waves reflected by its two faces interfere; Airy's sum, with all its orders
- * and unpolarised, replaces the Fresnel factor, by the coverage. Below it lies the dielectric, or metal of a
- * complex index by its reflectance and edge tint (Gulbrandsen 2014).
- *
- * For a band of Lorentzian shape over wavenumbers the spectrum's integral is Airy's sum with a reflection that fades
- * with the path, in closed form: four such bands of complex weights stand for the visible spectrum, and give red, green
- * and blue (`FILM_BANDS`), with no aliasing however thick the film. From inside, light beyond the critical angle is
- * reflected whatever the film.
- */
-export const openpbrFilm: WgslModule = film;
 
 /**
  * Fuzz: a layer of fibres over everything else (Zeltner, Burley and Chiang 2022). Its reflection is a linearly

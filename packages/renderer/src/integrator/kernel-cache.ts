@@ -103,11 +103,14 @@ export class KernelCache {
       parts = (await loadPart('guide-kernels', import('./guide-kernels'))).GUIDED_SHADE;
     if (name === 'shade' && features.flags.SHADOW_SOFTNESS)
       parts = (await loadPart('soft-shadows', import('./soft-shadows'))).softened(parts);
-    const { OPENPBR_LOBES, DELTA_TRANSMISSION } = features.flags;
+    const { OPENPBR_LOBES, OPENPBR_THIN_FILM, DELTA_TRANSMISSION } = features.flags;
     // The kernels that compose the surface.
-    if (OPENPBR_LOBES && (name === 'shade' || (name === 'connect' && DELTA_TRANSMISSION))) {
-      const { openpbrLobes } = await loadPart('lobes', import('@glanz/openpbr/lobes'));
-      parts = { ...parts, host: [...(parts?.host ?? []), openpbrLobes] };
+    if ((OPENPBR_LOBES || OPENPBR_THIN_FILM) && (name === 'shade' || (name === 'connect' && DELTA_TRANSMISSION))) {
+      const more = await Promise.all([
+        OPENPBR_LOBES && loadPart('lobes', import('@glanz/openpbr/lobes')).then((part) => part.openpbrLobes),
+        OPENPBR_THIN_FILM && loadPart('thin-film', import('@glanz/openpbr/film')).then((part) => part.openpbrFilm),
+      ]);
+      parts = { ...parts, host: [...(parts?.host ?? []), ...more] };
     }
     const { compact, pages } = features;
     if (compact) parts = (await loadPart('compact-kernels', import('./compact-kernels'))).compactKernel(parts);

@@ -7,6 +7,7 @@ import {
   resolveParameters,
   type OpenPbrParameters,
 } from '@glanz/openpbr';
+import { openpbrFilm } from '@glanz/openpbr/film';
 import { OPENPBR_TABLES } from '@glanz/openpbr/tables';
 import { requestDevice } from '@glanz/renderer';
 import { createGpu } from '@glanz/renderer/node';
@@ -124,7 +125,9 @@ export const benchmark: Benchmark = {
     for (const [k, [name, materials]] of SETS.entries()) {
       // A device of its own for each: nothing compiled before helps.
       const device = await requestDevice({ gpu: api });
-      const { code } = compose([kernel(seed * SETS.length + k)], { flags: { ...requiredFeatures(materials) } });
+      const flags = requiredFeatures(materials);
+      const modules = [kernel(seed * SETS.length + k), ...(flags.OPENPBR_THIN_FILM ? [openpbrFilm] : [])];
+      const { code } = compose(modules, { flags: { ...flags } });
       const create = performance.now();
       const module = device.createShaderModule({ code });
       const visibility = GPUShaderStage.COMPUTE;
