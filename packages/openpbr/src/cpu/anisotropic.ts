@@ -19,11 +19,11 @@ export const anisotropicEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector)
 /** Reflection is the mean over facets that reflect upwards, since it has an edge, times what mirrors reflect. */
 function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const wo: OpenPbrVector = [given[0], given[1], Math.max(given[2], 1e-5)];
-  const { upwards, sum } = seenFacets(alpha, wo);
+  const { upwards, sumOver } = seenFacets(alpha, wo);
   const reflectance = (h: OpenPbrVector): number => fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
   let reflected = 0;
   let mirrored = 1e-20;
-  sum(OPENPBR_ANISOTROPIC_MIRRORS, upwards, upwards, (weight, h) => {
+  sumOver(OPENPBR_ANISOTROPIC_MIRRORS, upwards, upwards, (weight, h) => {
     const mirror = weight * Math.max(facetSeen(eta, alpha, wo, h)[0], 0);
     reflected += mirror * reflectance(h);
     mirrored += mirror;
@@ -34,7 +34,7 @@ function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
 
 /**
  * The mean over all visible facets: cos χ (sin ψ p̂ + cos ψ ẑ) + sin χ q̂ where they are stretched to a round highlight, p̂
- * towards the view. Even in sin (ψ - ψ of the view) and in sin χ, times the cosine of χ; denser at the ends.
+ * towards the view. By sin (ψ - ψ of the view) and sin χ; the weights add up to 1.
  */
 function transmitted(eta: number, alpha: Slopes, wo: OpenPbrVector, reflectance: (h: OpenPbrVector) => number): number {
   const flat = [alpha[0] * wo[0], alpha[1] * wo[1]] as const;
@@ -42,13 +42,9 @@ function transmitted(eta: number, alpha: Slopes, wo: OpenPbrVector, reflectance:
   const azimuth = length2(...flat) > 1e-10 ? Math.atan2(flat[1], flat[0]) : 0;
   const [cos, sin] = [Math.cos(azimuth), Math.sin(azimuth)];
   let through = 0;
-  let all = 0;
-  for (let i = 0; i < OPENPBR_ANISOTROPIC_FACETS; i++) {
-    const u = (i + 0.5) / OPENPBR_ANISOTROPIC_FACETS;
-    const v = (i * 0.618034 + 0.25) % 1;
-    const psi = tilt + Math.asin(clamp((1 + Math.cos(tilt)) * u * u * (3 - 2 * u) - 1, -1, 1));
-    const chi = Math.asin(clamp(2 * v * v * (3 - 2 * v) - 1, -1, 1));
-    const weight = Math.cos(chi) * u * (1 - u) * v * (1 - v);
+  for (const [place, across, , weight] of OPENPBR_ANISOTROPIC_FACETS) {
+    const psi = tilt + Math.asin(clamp((1 + Math.cos(tilt)) * place - 1, -1, 1));
+    const chi = Math.asin(across);
     const along = Math.cos(chi) * Math.sin(psi);
     const h = normalize([
       alpha[0] * (along * cos - Math.sin(chi) * sin),
@@ -56,7 +52,6 @@ function transmitted(eta: number, alpha: Slopes, wo: OpenPbrVector, reflectance:
       Math.max(Math.cos(chi) * Math.cos(psi), 0),
     ]);
     through += weight * (1 - reflectance(h)) * facetSeen(eta, alpha, wo, h)[1];
-    all += weight;
   }
-  return through / all;
+  return through;
 }

@@ -13,6 +13,24 @@ export interface SeenFacets {
   readonly upwards: Conic;
   /** Sums over so many facets within both conics; the weights of all that are seen add up to 1. */
   readonly sum: (count: number, one: Conic, other: Conic, add: (weight: number, h: OpenPbrVector) => void) => void;
+  /** The same over these: places along and across the view, from 0 to 1 within the conics, and weights. */
+  readonly sumOver: (
+    nodes: Iterable<readonly [along: number, across: number, weight: number]>,
+    one: Conic,
+    other: Conic,
+    add: (weight: number, h: OpenPbrVector) => void,
+  ) => void;
+}
+
+const smooth = (x: number): number => x * x * (3 - 2 * x);
+
+/** Steps of the golden ratio, denser at the bounds. */
+function* golden(count: number): Generator<[along: number, across: number, weight: number]> {
+  for (let i = 0; i < count; i++) {
+    const u = (i + 0.5) / count;
+    const v = (i * 0.618034 + 0.5) % 1;
+    yield [smooth(u), smooth(v), (36 * u * (1 - u) * v * (1 - v)) / count];
+  }
 }
 
 /** Sums over facets within conics, seen from `wo`; `openpbrInside` says how they are chosen. */
@@ -49,15 +67,13 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
     ((sinPsi * flat + cosPsi * wo[2]) * (sinPsi * lean + cosPsi * upright) - min * sinPsi * sinPsi - cosPsi * cosPsi) /
     square;
 
-  const sum = (count: number, one: Conic, other: Conic, add: (weight: number, h: OpenPbrVector) => void): void => {
+  const sumOver: SeenFacets['sumOver'] = (nodes, one, other, add) => {
     const [rangeOne, rangeOther] = [range(one), range(other)];
     const first = Math.max(rangeOne[0], rangeOther[0]);
     const last = Math.min(rangeOne[1], rangeOther[1]);
     if (first >= last) return;
-    for (let i = 0; i < count; i++) {
-      const u = (i + 0.5) / count;
-      const v = (i * 0.618034 + 0.5) % 1;
-      const s = first + (last - first) * u * u * (3 - 2 * u);
+    for (const [place, across, amount] of nodes) {
+      const s = first + (last - first) * place;
       const rest = Math.sqrt(Math.max(1 - s * s, 0));
       const [sinPsi, cosPsi] = [s * cosine + rest * sine, Math.max(rest * cosine - s * sine, 0)];
       const middle = -skew * sinPsi;
@@ -65,11 +81,9 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
       const bound = (tangent: number): number => tangent / length2(tangent, 1);
       const left = bound(middle - width);
       const right = bound(middle + width);
-      const sinChi = left + (right - left) * v * v * (3 - 2 * v);
+      const sinChi = left + (right - left) * across;
       const cosChi = Math.sqrt(Math.max(1 - sinChi * sinChi, 0));
-      const weight =
-        (((last - first) / (1 + cosine)) * (right - left) * ((72 / Math.PI) * u * (1 - u) * v * (1 - v) * cosChi)) /
-        count;
+      const weight = ((last - first) / (1 + cosine)) * (right - left) * (2 / Math.PI) * amount * cosChi;
       const facet: OpenPbrVector = [
         cosChi * sinPsi * p[0] + sinChi * q[0],
         cosChi * sinPsi * p[1] + sinChi * q[1],
@@ -79,5 +93,6 @@ export function seenFacets(alpha: Slopes, wo: OpenPbrVector): SeenFacets {
       add(weight, [facet[0] / size, facet[1] / size, facet[2] / size]);
     }
   };
-  return { flat, upwards: [0, 2 / wo[2]], sum };
+  const sum: SeenFacets['sum'] = (count, ...rest) => sumOver(golden(count), ...rest);
+  return { flat, upwards: [0, 2 / wo[2]], sum, sumOver };
 }
