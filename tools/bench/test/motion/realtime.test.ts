@@ -93,8 +93,8 @@ it('follows edits of a view that does not move, and continues a film that has no
   image = await frame(realtime);
   const darker = await tracerOf();
   await darker.setMaterial(index, { emission_luminance: 0.9 * scene.materials[index]!.parameters.emission_luminance! });
-  const wanted = await frame(darker, 512);
-  expect(error(image, wanted)).toBeLessThan(0.5 * error(await tracer.read('beauty'), wanted));
+  const expected = await frame(darker, 512);
+  expect(error(image, expected)).toBeLessThan(0.5 * error(await tracer.read('beauty'), expected));
   for (const one of [realtime, tracer, darker]) one.destroy();
 });
 
