@@ -44,6 +44,9 @@ const LATER = {
   './gpu-trees': 'glanz-viewer.gpu-trees.min.js',
   './guide-kernels': 'glanz-viewer.guide-kernels.min.js',
   './soft-shadows': 'glanz-viewer.soft-shadows.min.js',
+  './rare-kernels': 'glanz-viewer.rare-kernels.min.js',
+  './light-kernels': 'glanz-viewer.light-kernels.min.js',
+  './session/light-paths': 'glanz-viewer.light-paths.min.js',
   './paged/pages': 'glanz-viewer.pages.min.js',
   './paged-kernels': 'glanz-viewer.paged-kernels.min.js',
   './compact-shapes': 'glanz-viewer.compact-shapes.min.js',
@@ -72,6 +75,9 @@ const SOURCES = {
   './gpu-trees': '../renderer/src/geometry/gpu-trees',
   './guide-kernels': '../renderer/src/integrator/guide-kernels',
   './soft-shadows': '../renderer/src/integrator/soft-shadows',
+  './rare-kernels': '../renderer/src/integrator/rare-kernels',
+  './light-kernels': '../renderer/src/integrator/light-kernels',
+  './session/light-paths': '../renderer/src/session/light-paths',
   './paged/pages': '../renderer/src/storage/paged/pages',
   './paged-kernels': '../renderer/src/integrator/paged-kernels',
   './compact-shapes': '../renderer/src/geometry/compact-shapes',
@@ -170,7 +176,7 @@ const beside = (files) => ({
     context.onResolve(
       {
         filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|realtime|gpu-trees|guide-kernels|soft-shadows|noise-target|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|compact-shapes|compact-kernels|session\/guide-training)$)/,
+          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|realtime|gpu-trees|guide-kernels|rare-kernels|light-kernels|soft-shadows|noise-target|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|compact-shapes|compact-kernels|session\/guide-training|session\/light-paths)$)/,
       },
       ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
     );

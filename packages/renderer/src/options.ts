@@ -80,6 +80,14 @@ export interface PathTracerOptions {
    */
   readonly guiding?: number;
   /**
+   * Unbiased: the number of paths per pixel and sample that start at lights, go through smooth glass and mirrors, and end
+   * at the first surface that the camera sees: caustics of small lights, which paths from the camera rarely find. Both
+   * are weighed against each other. 0 (default) off, 0.25 to 1 for scenes with such caustics; 0 to 16. Without effect with
+   * orthographic and panorama cameras, catchers, `backFaceCulling: 'all'`, `clampIndirect`, `regularization`,
+   * `maxBounces` and without `caustics`. Lights without a size start none.
+   */
+  readonly lightPaths?: number;
+  /**
    * Unbiased: number of light samples that are drawn at the first surface of a path; one of them, chosen by what it would
    * contribute without shadows, gets the shadow ray (resampled importance sampling, Talbot et al. 2005). 1 to 64, default
    * 1. 4 lowers the noise where many lights or lights of very different directions matter and are mostly visible: by 40 %

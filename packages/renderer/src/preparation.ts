@@ -89,13 +89,23 @@ export interface PreparationInput {
 
 /** What decides the kernels' text: the scene's features, the camera and the options. */
 export function kernelFeatures(features: KernelFeatures, camera: Camera, options: TracerSettings): KernelFeatures {
+  const flags: Readonly<Record<string, boolean>> = {
+    ...features.flags,
+    ...viewFlags(camera, options.filter),
+    ...biasedFlags(options),
+    ...aovFlags(options.aovs),
+  };
+  const { NEXT_EVENT, CATCHER, CULLING_ALL, PATH_STATE, CLAMP_INDIRECT } = flags;
   return {
     ...features,
     flags: {
-      ...features.flags,
-      ...viewFlags(camera, options.filter),
-      ...biasedFlags(options),
-      ...aovFlags(options.aovs),
+      ...flags,
+      // Light paths know nothing of these.
+      LIGHT_PATHS:
+        options.lightPaths > 0 &&
+        NEXT_EVENT === true &&
+        !(CATCHER || CULLING_ALL || PATH_STATE || CLAMP_INDIRECT) &&
+        camera.type === 'perspective',
       LIGHT_CANDIDATES: options.lightCandidates > 1,
       GUIDE: options.guiding > 0 || features.flags.PANES === true,
       SHADOW_SOFTNESS: features.flags.CATCHER === true && options.shadowSoftness > 0,
@@ -342,10 +352,15 @@ function assembly({ device, memory, cache, options }: PreparationInput) {
     }),
     stage({
       name: 'kernels',
-      needs: ['features', 'integrator', 'guide'],
+      needs: ['scene', 'gpuScene', 'features', 'integrator', 'guide'],
       // The driver goes on compiling after an abort, for a later tracer.
       place: 'elsewhere',
-      async run({ features, integrator }, { signal }) {
+      async run({ scene, gpuScene, features, integrator }, { signal }) {
+        if (options.lightPaths > 0) {
+          const { lightTracing } = await loadPart('light-paths', import('./session/light-paths'));
+          const source = { device, memory, scene, gpuScene, integrator, options };
+          integrator.lights = lightTracing(source, [Integrator, isShown, parametersOf]);
+        }
         const prewarmed: Promise<void>[] = [];
         const onKernel = (done: number, name?: KernelName, kernel?: Kernel) => {
           if (signal.aborted || outer?.aborted) return;

@@ -50,15 +50,18 @@ export interface GroundTruthOptions {
   readonly seed?: number;
   /** Default `blue-noise`. */
   readonly sampler?: NonNullable<PathTracerOptions['sampler']>;
+  /** See `PathTracerOptions.lightPaths`. Default 0. */
+  readonly lightPaths?: number;
 }
 
 /** How a scene of the reference set is rendered: as its reference was, with single scattering. */
 export function groundTruthOptions(
   truth: GroundTruth,
-  { variant = 'full', seed = 0, sampler = 'blue-noise' }: Omit<GroundTruthOptions, 'samples' | 'noise'>,
+  { variant = 'full', seed = 0, sampler = 'blue-noise', lightPaths = 0 }: Omit<GroundTruthOptions, 'samples' | 'noise'>,
 ): PathTracerOptions {
   const { width, height } = truth.description.film;
-  return { width, height, seed, sampler, maxDepth: truth.maxDepth(variant), camera: 0, multipleScattering: false };
+  const maxDepth = truth.maxDepth(variant);
+  return { width, height, seed, sampler, lightPaths, maxDepth, camera: 0, multipleScattering: false };
 }
 
 /** Renders a scene of the reference set the way its reference was and compares. */

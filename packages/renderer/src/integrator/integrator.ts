@@ -26,6 +26,16 @@ const NO_AOVS: AovBatch = { begin: 0, end: 0, only: false };
 /** Where paths leave their light. */
 export type PathFilm = Pick<Film, 'pixels' | 'buffer' | 'bytes'>;
 
+/** Light paths, which are traced before each batch where they are requested: `session/light-paths.ts`. */
+export interface LightTracing {
+  /** What kernels bind by this name, if it is theirs. */
+  buffer(name: string): GPUBuffer | undefined;
+  writeFrame(frame: ArrayBuffer): void;
+  rebind(group?: BindGroupName): void;
+  /** Traces the light paths of a batch, and the batch in parts. */
+  submit(batch: Batch, trace: (part: Batch) => void): void;
+}
+
 /** How long paths may become. */
 export interface DepthLimits {
   /** Edges. */
@@ -58,6 +68,7 @@ export class Integrator {
   /** As it was written. */
   #aovs: AovBatch | undefined;
   limits: DepthLimits;
+  lights: LightTracing | undefined;
   /** Number of the film's first sample. */
   firstSample = 0;
   #kernels: KernelSet;
@@ -110,6 +121,11 @@ export class Integrator {
     return this.#paths.limit;
   }
 
+  /** Of the film. */
+  get pixels(): number {
+    return this.#film.pixels;
+  }
+
   /** Paths of a sample: one, with catchers two. */
   get pathsPerSample(): number {
     return this.#kernels.features.flags.CATCHER ? 2 : 1;
@@ -146,6 +162,7 @@ export class Integrator {
   rebind(group?: BindGroupName): void {
     for (const name of group ? [group] : (Object.keys(this.#groups) as BindGroupName[])) this.#groups[name].clear();
     this.#aovs = undefined;
+    this.lights?.rebind(group);
   }
 
   /** From now on paths go to this film. */
@@ -156,6 +173,7 @@ export class Integrator {
 
   writeFrame(frame: ArrayBuffer): void {
     this.#memory.write(this.#paths.buffers.frame, frame);
+    this.lights?.writeFrame(frame);
   }
 
   /** The frame before, for motion: see `FrameHistory.pack`. */
@@ -186,6 +204,11 @@ export class Integrator {
    * @param aovs What to do about their AOVs, where the kernels record such.
    */
   submit(batch: Batch, aovs: AovBatch = NO_AOVS): void {
+    if (this.lights && !aovs.only) this.lights.submit(batch, (part) => this.#submit(part, aovs));
+    else this.#submit(batch, aovs);
+  }
+
+  #submit(batch: Batch, aovs: AovBatch): void {
     this.#writeBatch(batch);
     this.#writeAovs(aovs);
     const { kernels, features } = this.#kernels;
@@ -296,6 +319,8 @@ export class Integrator {
   #resource(name: string): GPUBindingResource | undefined {
     const own = (this.#paths.buffers as Record<string, GPUBuffer>)[name];
     if (own) return { buffer: own };
+    const light = this.lights?.buffer(name);
+    if (light) return { buffer: light };
     const film = this.#film.buffer(name);
     return film ? { buffer: film, size: this.#film.bytes(film) } : this.#scene.resource(name);
   }

@@ -1,4 +1,7 @@
+import { bvhClosestHit } from '@glanz/bvh/wgsl';
 import { loadPart } from '@glanz/wgsl';
+import camera from '../camera/camera.wesl';
+import traversal from '../geometry/traversal.wesl';
 import {
   kernelSource,
   KERNELS,
@@ -7,6 +10,7 @@ import {
   type KernelName,
   type KernelParts,
 } from './pipelines';
+import shade from './shade.wesl';
 
 /** The kernels that a scene's main loop needs, compiled for its features. */
 export interface KernelSet {
@@ -79,7 +83,8 @@ export class KernelCache {
         !ON_DEMAND.has(name) &&
         (name !== 'connect' || features.flags.NEXT_EVENT === true) &&
         (name !== 'aov' || features.flags.AOVS === true) &&
-        (name !== 'aov_ids' || features.flags.AOV_IDS === true),
+        (name !== 'aov_ids' || features.flags.AOV_IDS === true) &&
+        (!name.startsWith('light_') || features.flags.LIGHT_PATHS === true),
     );
     const listeners = new Set<ProgressListener>();
     const ready = new Map<KernelName, Kernel>();
@@ -99,19 +104,32 @@ export class KernelCache {
   async kernel(name: KernelName, features: KernelFeatures, parts?: KernelParts): Promise<Kernel> {
     if (name === 'noise' || name === 'relight' || name === 'variance' || name === 'aov' || name === 'aov_ids')
       parts = { root: (await loadPart('film-kernels', import('./film-kernels'))).FILM_KERNELS[name] };
-    if (name === 'shade' && features.flags.GUIDE)
-      parts = (await loadPart('guide-kernels', import('./guide-kernels'))).GUIDED_SHADE;
+    const { GUIDE, LIGHT_PATHS, DISPERSION, LIGHT_PROFILES } = features.flags;
+    const { OPENPBR_LOBES, OPENPBR_THIN_FILM, DELTA_TRANSMISSION } = features.flags;
+    const scatters = /shade|trace/.test(name);
+    if (scatters && GUIDE) parts = (await loadPart('guide-kernels', import('./guide-kernels'))).GUIDED_SHADE;
+    if (scatters && (DISPERSION || LIGHT_PROFILES))
+      parts = (await loadPart('rare-kernels', import('./rare-kernels'))).rareKernel(name, features.flags, parts);
     if (name === 'shade' && features.flags.SHADOW_SOFTNESS)
       parts = (await loadPart('soft-shadows', import('./soft-shadows'))).softened(parts);
-    const { OPENPBR_LOBES, OPENPBR_THIN_FILM, DELTA_TRANSMISSION } = features.flags;
     // The kernels that compose the surface.
-    if ((OPENPBR_LOBES || OPENPBR_THIN_FILM) && (name === 'shade' || (name === 'connect' && DELTA_TRANSMISSION))) {
+    if (
+      (OPENPBR_LOBES || OPENPBR_THIN_FILM) &&
+      (scatters || name === 'light_start' || (name === 'connect' && DELTA_TRANSMISSION))
+    ) {
       const more = await Promise.all([
         OPENPBR_LOBES && loadPart('lobes', import('@glanz/openpbr/lobes')).then((part) => part.openpbrLobes),
         OPENPBR_THIN_FILM && loadPart('thin-film', import('@glanz/openpbr/film')).then((part) => part.openpbrFilm),
       ]);
       parts = { ...parts, host: [...(parts?.host ?? []), ...more] };
     }
+    if (LIGHT_PATHS)
+      [features, parts] = (await loadPart('light-kernels', import('./light-kernels'))).lightKernel(
+        name,
+        features,
+        parts,
+        [shade, camera, traversal, bvhClosestHit],
+      );
     const { compact, pages } = features;
     if (compact) parts = (await loadPart('compact-kernels', import('./compact-kernels'))).compactKernel(parts);
     if (pages)

@@ -87,6 +87,9 @@ export const KERNELS = [
   'noise',
   'variance',
   'first',
+  'light_begin',
+  'light_start',
+  'light_trace',
 ] as const;
 export type KernelName = (typeof KERNELS)[number];
 
@@ -149,6 +152,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
         textures: false,
       };
     case 'begin':
+    case 'light_begin':
       return { root: begin, resources: ['batch', 'queues', 'dispatch'], textures: false };
     case 'advance':
       return { root: advance, resources: ['queues', 'dispatch'], textures: false };
@@ -203,6 +207,8 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
       };
     }
     case 'shade':
+    case 'light_start':
+    case 'light_trace':
       return {
         root: shade,
         host: [path, surface, lights, ...surfaces],
@@ -312,6 +318,8 @@ export interface KernelSource {
 
 /** What is loaded later of a kernel's text: its entry point, more of what it calls, other resources. */
 export interface KernelParts extends Partial<Pick<KernelText, 'root' | 'host' | 'resources'>> {
+  /** Resources besides its own. */
+  readonly more?: readonly ResourceName[];
   /** Modules in place of others. */
   readonly swap?: (module: WgslModule) => WgslModule;
   /** Bindings in place of others. */
@@ -334,7 +342,10 @@ export function kernelSource(name: KernelName, features: KernelFeatures, parts: 
     BVH_FILTER: chosen.OPACITY === true || chosen.CULLING === true,
     PASSES: features.lightPasses > 1,
   };
-  const bound = kernelBindings(text.resources, text.textures ? sceneBindings(features) : []);
+  const bound = kernelBindings(
+    [...text.resources, ...(parts.more ?? [])],
+    text.textures ? sceneBindings(features) : [],
+  );
   const groups = parts.bind?.(bound) ?? bound;
   const bindings = bindingModule(name, groups, flags);
   const host = text.host.filter((module) => !!module);

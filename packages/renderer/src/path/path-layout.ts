@@ -73,7 +73,7 @@ const WITH_AOVS = Object.keys(AOVS) as (keyof typeof AOVS)[];
 
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
 export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
-  const key = `${lightPasses} ${['PATH_STATE', 'CATCHER', 'MEDIA', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
+  const key = `${lightPasses} ${['PATH_STATE', 'CATCHER', 'MEDIA', 'LIGHT_PATHS', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
   let layout = layouts.get(key);
   if (!layout) {
     const fields = {
@@ -86,6 +86,8 @@ export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
       ...(flags.PATH_STATE ? STATE : {}),
       ...(flags.CATCHER ? { role: 'u32' } : {}),
       ...(flags.MEDIA ? INTERIOR : {}),
+      /** See light_chains.wesl. */
+      ...(flags.LIGHT_PATHS ? { chain: 'f32' } : {}),
       ...Object.assign({}, ...WITH_AOVS.map((flag) => (flags[flag] ? AOVS[flag] : {}))),
     });
     const film = filmLightPasses(lightPasses, flags.CATCHER === true);

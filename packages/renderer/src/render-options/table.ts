@@ -142,6 +142,7 @@ export const RENDER_OPTIONS = {
   shadowSoftness: { type: 'number', range: [0, 1], default: 0, effect: 'kernel' },
   clampIndirect: { type: 'number', range: [0, 1e30], above: true, effect: 'kernel' },
   caustics: { type: 'boolean', default: true, effect: 'kernel' },
+  lightPaths: { type: 'number', range: [0, 16], default: 0, effect: 'kernel' },
   guiding: { type: 'number', range: [0, 1000], default: 0, effect: 'kernel' },
   multipleScattering: { type: 'boolean', default: true, effect: 'kernel' },
   sampler: { type: 'enum', values: ['blue-noise', 'sobol', 'independent'], default: 'blue-noise', effect: 'kernel' },

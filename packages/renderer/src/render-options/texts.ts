@@ -75,6 +75,10 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     doc: 'Light that reaches a matte surface by a sharp reflection or refraction.',
     biased: true,
   },
+  lightPaths: {
+    doc: 'Number of paths per pixel and sample that start at lights and go through smooth glass and mirrors; 0 is off.',
+    softRange: [0, 1],
+  },
   guiding: {
     doc: 'Number of training paths of the path guide, in millions, traced before the first sample; 0 is off.',
     softRange: [0, 64],

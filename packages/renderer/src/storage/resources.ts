@@ -73,6 +73,8 @@ const FILM = {
   aov_motion: { type: 'array<vec2f>', space: 'read_write' },
   film_variance: { type: 'array<vec4f>', space: 'read_write' },
   guide_points: { type: 'array<vec4f>', space: 'read' },
+  light_casters: { type: 'array<vec4f, 17>', space: 'uniform' },
+  light_splats: { type: 'array<atomic<u32>>', space: 'read_write' },
 } as const satisfies Record<string, Resource>;
 
 /**

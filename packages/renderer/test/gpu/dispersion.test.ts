@@ -4,6 +4,7 @@ import type { Environment, Material, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
 import dispersion from '../../src/integrator/dispersion.wesl';
+import randomNumbers from '../../src/random/random.wesl';
 import { addSphere, camera, createScene, meanOf, middle } from '../scenes';
 
 type Vector = readonly [number, number, number];
@@ -77,7 +78,7 @@ var<private> frame: TestFrame;
   let drawn = dispersion_sample(3u, id.x, vec3f(throughput[0], throughput[1], throughput[2]));
   result[id.x] = vec4f(drawn.throughput, drawn.wavelength);
 }`,
-    [dispersion],
+    [dispersion, randomNumbers],
   );
   const numbers = new Float32Array(
     await runCompute(device, compose([host], { flags: { SOBOL: true, SCREEN_NOISE: false } }).code, {

@@ -30,6 +30,7 @@ export const benchmark: Benchmark = {
   options: {
     scenes: { type: 'string', help: 'only these, by name, separated by commas' },
     samples: { type: 'string', help: 'samples per pixel of each run' },
+    'light-paths': { type: 'string', help: 'light paths per pixel and sample; default 0' },
     slopes: {
       type: 'string',
       help: 'most samples per pixel for the slopes of convergence, 16 at least; without it they are not measured',
@@ -47,6 +48,7 @@ export const benchmark: Benchmark = {
     // Independent seeds give the interval; their mean is the image that is checked.
     const runs = quick ? 2 : 4;
     const samples = wholeNumber('samples', values['samples']) ?? (quick ? 4 : software ? 32 : 256);
+    const lightPaths = Number(values['light-paths'] ?? 0);
     const requested = values['scenes']?.split(',');
     const unknown = requested?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
     if (unknown !== undefined)
@@ -76,7 +78,7 @@ export const benchmark: Benchmark = {
         continue;
       }
       for (let seed = 1; seed <= runs; seed++) {
-        const { image, comparison } = await renderGroundTruth(device, truth, { samples, variant, seed });
+        const { image, comparison } = await renderGroundTruth(device, truth, { samples, variant, seed, lightPaths });
         image.forEach((value, i) => (sum[i]! += value / runs));
         perSample.push(comparison.relMsePerSample);
       }
@@ -135,7 +137,7 @@ export const benchmark: Benchmark = {
     });
     device.destroy();
     return {
-      settings: { samples, runs, multipleScattering: false },
+      settings: { samples, runs, lightPaths, multipleScattering: false },
       gpu: { name: adapterName, software },
       figures,
       notes,

@@ -334,6 +334,11 @@ const LIGHTS: readonly HashCase[] = [
     relight: 0.5,
   },
   { name: 'a guide', scene: () => createCornellBox(), options: { guiding: 0.01 } },
+  {
+    name: 'light paths',
+    scene: () => stage({ transmission_weight: 1, specular_roughness: 0 }),
+    options: { lightPaths: 0.5 },
+  },
   { name: 'light groups off', scene: () => createCornellBox(), options: { lightGroups: 'off' } },
   {
     name: 'constant environment',
