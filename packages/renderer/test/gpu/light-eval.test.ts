@@ -8,6 +8,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { environmentSteps } from '../../src/environment/environment';
 import { prepareGeometry } from '../../src/geometry/prepare-geometry';
 import lightEval from '../../src/lights/light_eval.wesl';
+import lightProfile from '../../src/lights/light_profile.wesl';
 import { energyTextures } from '../../src/materials/energy-textures';
 import energyHost from '../../src/materials/energy.wesl';
 import { materialCases } from '../../src/materials/material-cases';
@@ -135,6 +136,7 @@ class LightHost {
       ...(cases ? [cases] : []),
       openpbr,
       energyHost,
+      ...(flags.LIGHT_PROFILES ? [lightProfile] : []),
       lightEval,
     ]);
     const module = device.createShaderModule({ code: compose([main], { flags }).code });
