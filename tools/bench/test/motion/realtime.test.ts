@@ -44,7 +44,7 @@ it('has less noise in motion than the progressive one, and leaves the film as if
 
   const still = await tracerOf();
   await still.setCamera(orbited(camera, 0.016));
-  const reference = await frame(still, 512);
+  const reference = await frame(still, 128);
   expect(error(image, reference)).toBeLessThan(0.5 * error(raw, reference));
 
   expect(realtime.shifted).toBe(true);
@@ -82,7 +82,8 @@ it('follows edits of a view that does not move, and continues a film that has no
     tracer.reset();
     image = await frame(realtime);
   }
-  const reference = await frame(await tracerOf(), 512);
+  const still = await tracerOf();
+  const reference = await frame(still, 128);
   const settled = error(image, reference);
   // Two more samples of the same film.
   expect(error(await frame(realtime, 3), reference)).toBeLessThan(1.1 * settled);
@@ -93,9 +94,9 @@ it('follows edits of a view that does not move, and continues a film that has no
   image = await frame(realtime);
   const darker = await tracerOf();
   await darker.setMaterial(index, { emission_luminance: 0.9 * scene.materials[index]!.parameters.emission_luminance! });
-  const expected = await frame(darker, 512);
+  const expected = await frame(darker, 128);
   expect(error(image, expected)).toBeLessThan(0.5 * error(await tracer.read('beauty'), expected));
-  for (const one of [realtime, tracer, darker]) one.destroy();
+  for (const one of [realtime, tracer, still, darker]) one.destroy();
 });
 
 it('shows the film itself where it is destroyed', async () => {
