@@ -1,7 +1,8 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import type { TemporalFilterOptions } from '../src/temporal/index';
-import { red, runShots, spread, wall, type Shot } from './temporal-shots';
+import { numbersFrom } from './random-network';
+import { HEIGHT, red, runShots, spread, wall, type Seen, type Shot } from './temporal-shots';
 
 afterEach(() => expectNoGpuErrors());
 
@@ -44,5 +45,24 @@ describe('antialiasing', () => {
     expect(await contrast(false)).toBeCloseTo(0.2, 2);
     // a and b of (a + 1) / 2 = b and (b + 0.2) / 2 = a: a third of the difference is left.
     expect(await contrast(true)).toBeCloseTo(0.2 / 3, 2);
+  });
+
+  it('leaves edges of several samples a pixel as smooth as they are', async () => {
+    // A column of pixels, of which half shows a bright instance, and half a dim one.
+    const EDGE = 20;
+    const halves = (x: number, y: number): Seen => ({
+      ...wall(x, y),
+      instance: x < EDGE ? 4 : 3,
+      radiance: x < EDGE ? 4 : 0.5,
+    });
+    const random = numbersFrom(3);
+    const noisy = (x: number, y: number) =>
+      (x === EDGE ? 2.25 : halves(x, y).radiance) * (1 + 0.1 * Math.sqrt(12) * (random() - 0.5));
+    const shot: Shot = { scene: halves, step: 'cuts', samples: 4, color: noisy };
+    const { image, films } = await run([shot], { settledSamples: Infinity });
+    for (let y = 4; y < HEIGHT - 4; y++) {
+      expect(red(image, EDGE, y)).toBeCloseTo(red(films[0]!, EDGE, y), 5);
+      expect(red(image, EDGE + 2, y)).toBeCloseTo(0.5, 1);
+    }
   });
 });

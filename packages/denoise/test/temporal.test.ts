@@ -1,7 +1,6 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterEach, beforeAll, describe, expect, it } from 'vitest';
 import { TemporalFilter, type FrameStep, type TemporalFilterOptions } from '../src/temporal/index';
-import { numbersFrom } from './random-network';
 import {
   HEIGHT,
   MEAN_ALONE,
@@ -292,25 +291,6 @@ describe('TemporalFilter', () => {
     for (let x = 14; x < 26; x++)
       for (let y = 10; y < 14; y++) off = Math.max(off, Math.abs(red(image, x, y) / 0.5 - 1));
     expect(off).toBeLessThan(0.15);
-  });
-
-  it('leaves edges of several samples a pixel as smooth as they are', async () => {
-    // A column of pixels, of which half shows a bright instance, and half a dim one.
-    const EDGE = 20;
-    const halves = (x: number, y: number): Seen => ({
-      ...wall(x, y),
-      instance: x < EDGE ? 4 : 3,
-      radiance: x < EDGE ? 4 : 0.5,
-    });
-    const random = numbersFrom(3);
-    const noisy = (x: number, y: number) =>
-      (x === EDGE ? 2.25 : halves(x, y).radiance) * (1 + 0.1 * Math.sqrt(12) * (random() - 0.5));
-    const shot: Shot = { scene: halves, step: 'cuts', samples: 4, color: noisy };
-    const { image, films } = await run([shot], { settledSamples: Infinity });
-    for (let y = 4; y < HEIGHT - 4; y++) {
-      expect(red(image, EDGE, y)).toBeCloseTo(red(films[0]!, EDGE, y), 5);
-      expect(red(image, EDGE + 2, y)).toBeCloseTo(0.5, 1);
-    }
   });
 
   it('filters in space as long as the history leaves noise', async () => {
