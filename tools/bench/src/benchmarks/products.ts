@@ -35,9 +35,7 @@ function fromReports(
   const reports = readReports(files);
   const measurements = joinedMeasurements(reports);
   const figures = figuresOf(measurements, true);
-  const mean = figures.at(-1);
-  const whole = mean && 'median' in mean ? mean.median.toPrecision(3) : '–';
-  if (folder !== undefined) for (const file of writeProductPage(reports, figures, whole, folder)) log(`wrote ${file}`);
+  if (folder !== undefined) for (const file of writeProductPage(reports, figures, folder)) log(`wrote ${file}`);
   process.stdout.write(`${productTable(measurements)}\n`);
   return { settings: { from: files }, figures, notes: remarks(measurements) };
 }

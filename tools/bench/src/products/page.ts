@@ -1,8 +1,9 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import type { Figure } from '../benchmark';
 import { BenchError } from '../error';
 import type { ProductMeasurement } from './measure';
-import { productTable, remarks } from './summary';
+import { meansOf, productTable, remarks } from './summary';
 
 /** Which code was measured, and when. */
 interface Source {
@@ -44,11 +45,12 @@ const sourcesOf = (reports: readonly ProductReport[]): Source[] =>
   reports.flatMap(({ sources, machine: { commit, date } }) => sources ?? [{ commit, date } as Source]);
 
 /** The page of the documentation. */
-export function productPage(reports: readonly ProductReport[], mean: string): string {
+export function productPage(reports: readonly ProductReport[], figures: readonly Figure[]): string {
   const all = joinedMeasurements(reports);
   const titles = Object.assign({}, ...reports.map(({ settings }) => settings.titles)) as Record<string, string>;
   const shown = [...new Set(all.map(({ product }) => product))];
   const notes = remarks(all);
+  const { noise, error } = meansOf(figures);
   const commits = [...new Set(sourcesOf(reports).map(({ commit = 'unknown' }) => commit))].join(', ');
   const gpus = [...new Set(reports.map(({ gpu }) => gpu?.name ?? 'unknown'))].join(', ');
   return `<!-- Written by npm run bench -- products --from FILE,FILE --pages FOLDER; do not edit. -->
@@ -62,11 +64,12 @@ Models of products in the light that they are shown in, rendered by Glanz and by
 - **Set-up.** From the file in memory to the first sample, in a fresh process, with pipelines that the driver has not compiled before.
 - **relMSE × samples.** The error of one sample: mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean), times the number of samples.
 - **Noise × time.** The noise of three-gpu-pathtracer times its wall time, over that of Glanz: how many times as long it takes to the same noise. Only the noise counts, measured between independent runs, since a bias does not fall with time.
+- **Error after 1 s.** relMSE of an image after one second of wall time without set-up (at the median time of a sample, at least one sample), that of three-gpu-pathtracer over that of Glanz. It is the sum of the noise, which falls as 1 / samples, and of the rest of the measured relMSE (at least 0), which stays. The references are Glanz's, so the rest of the peer's error is mostly that it shows another image: it is no noise, and more time does not lower it.
 - **Brightness.** That of the peer's image over the reference's. Far from 1, it shows another image, and its error is no noise.
 - **References.** Long renders of Glanz in two halves with random numbers of their own, whose difference gives the stated error of the reference. A third render with another sampler checks the brightness.
 - **–** Not measured: three-gpu-pathtracer has no subsurface scattering, or the time of the measurement was over.
 
-Over all products and sizes the noise of three-gpu-pathtracer takes **${mean}×** as long, as a geometric mean. Measured on ${gpus} (commits ${commits}); another GPU of the host was at work meanwhile.
+Over all products and sizes, as geometric means, three-gpu-pathtracer takes **${noise}×** as long to the same noise, and its error after a second is **${error}×** as large. Measured on ${gpus} (commits ${commits}); another GPU of the host was at work meanwhile.
 
 ${productTable(all)}
 
@@ -78,12 +81,11 @@ ${notes.length > 0 ? `## Remarks\n\n${notes.map((note) => `- ${note}`).join('\n'
 /** Writes the page and its data. Gives the files. */
 export function writeProductPage(
   reports: readonly ProductReport[],
-  figures: readonly unknown[],
-  mean: string,
+  figures: readonly Figure[],
   folder: string,
 ): string[] {
   const [page, data] = [join(folder, 'products.md'), join(folder, 'products.json')];
-  writeFileSync(page, productPage(reports, mean));
+  writeFileSync(page, productPage(reports, figures));
   const [{ machine, gpu } = {}] = reports;
   const titles = Object.assign({}, ...reports.map(({ settings }) => settings.titles)) as Record<string, string>;
   const settings = { ...reports[0]?.settings, titles };

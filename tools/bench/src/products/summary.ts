@@ -1,8 +1,12 @@
 import { estimated, timed, type Figure } from '../benchmark';
+import { geometricMean } from '../geometric-mean';
 import type { ProductMeasurement } from './measure';
 
 /** How many times less error at equal time is aimed at, over all products. */
 const AIM = 20;
+
+/** Milliseconds of wall time after which errors are compared. */
+const EQUAL_TIME = 1000;
 
 const mean = (values: readonly number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;
 const size = ({ width, height }: ProductMeasurement) => `${width} × ${height}`;
@@ -13,6 +17,24 @@ const relMsePerSample = ({ runs }: ProductMeasurement) => runs.map(({ relMse, sa
 const noiseTime = ({ noise, runs }: ProductMeasurement) =>
   mean(noise) * mean(runs.map(({ wallMs, samples }) => wallMs / samples));
 
+const median = (values: readonly number[]) => {
+  const sorted = [...values].sort((a, b) => a - b);
+  const middle = (sorted.length - 1) / 2;
+  return (sorted[Math.floor(middle)]! + sorted[Math.ceil(middle)]!) / 2;
+};
+
+/**
+ * relMSE of an image after so many milliseconds of wall time, and after one sample at the earliest: the noise of its
+ * samples, and what of the error is no noise and stays.
+ */
+export function errorAfter({ noise, runs }: ProductMeasurement, ms: number): number {
+  const perSample = mean(noise);
+  const samples = Math.max(1, ms / median(runs.map((run) => run.wallMs / run.samples)));
+  // Two estimates that err: of an image without a bias their difference is 0 on average, and as often below.
+  const bias = Math.max(0, mean(runs.map((run) => run.relMse - perSample / run.samples)));
+  return perSample / samples + bias;
+}
+
 /** The other renderer's measurement of the same product at the same size. */
 const peerOf = (ours: ProductMeasurement, all: readonly ProductMeasurement[]) =>
   all.find(
@@ -20,10 +42,14 @@ const peerOf = (ours: ProductMeasurement, all: readonly ProductMeasurement[]) =>
       renderer !== 'glanz' && product === ours.product && width === ours.width && height === ours.height,
   );
 
+const ERROR_RATIO = "relMSE after 1 s of wall time, three-gpu-pathtracer's over Glanz's";
+const MEAN_ERROR_RATIO = `${ERROR_RATIO}, geometric mean`;
+const MEAN_NOISE_RATIO = "noise × wall time, three-gpu-pathtracer's over Glanz's, geometric mean";
+
 /** All figures of the measurements. `judge`: whether targets are stated. */
 export function figuresOf(all: readonly ProductMeasurement[], judge: boolean): Figure[] {
   const figures: Figure[] = [];
-  const ratios: number[] = [];
+  const [ratios, errors]: [number[], number[]] = [[], []];
   for (const one of all) {
     const name = `${one.product}, ${size(one)}${one.renderer === 'glanz' ? '' : `, ${one.renderer}`}`;
     figures.push(
@@ -52,20 +78,32 @@ export function figuresOf(all: readonly ProductMeasurement[], judge: boolean): F
     if (peer) {
       const ratio = noiseTime(peer) / noiseTime(one);
       if (Number.isFinite(ratio) && ratio > 0) ratios.push(ratio);
-      figures.push(timed(`${name}: noise × wall time, three-gpu-pathtracer's over Glanz's`, '×', [ratio]));
+      const error = errorAfter(peer, EQUAL_TIME) / errorAfter(one, EQUAL_TIME);
+      if (Number.isFinite(error) && error > 0) errors.push(error);
+      figures.push(
+        timed(`${name}: noise × wall time, three-gpu-pathtracer's over Glanz's`, '×', [ratio]),
+        timed(`${name}: ${ERROR_RATIO}`, '×', [error]),
+      );
     }
   }
-  if (ratios.length > 0)
-    figures.push({
-      name: "noise × wall time, three-gpu-pathtracer's over Glanz's, geometric mean",
-      unit: '×',
-      runs: ratios.length,
-      min: Math.min(...ratios),
-      median: Math.exp(mean(ratios.map(Math.log))),
-      max: Math.max(...ratios),
-      ...(judge ? { target: { value: AIM, relation: '>=', source: 'error at equal time aimed at' } } : {}),
-    });
+  const whole = (name: string, values: readonly number[]): Figure => ({
+    name,
+    unit: '×',
+    runs: values.length,
+    min: Math.min(...values),
+    median: geometricMean(values),
+    max: Math.max(...values),
+    ...(judge ? { target: { value: AIM, relation: '>=', source: 'error at equal time aimed at' } } : {}),
+  });
+  if (errors.length > 0) figures.push(whole(MEAN_ERROR_RATIO, errors));
+  if (ratios.length > 0) figures.push(whole(MEAN_NOISE_RATIO, ratios));
   return figures;
+}
+
+/** The geometric means over all products and sizes, with three digits, and a dash where no peer was measured. */
+export function meansOf(figures: readonly Figure[]): { readonly noise: string; readonly error: string } {
+  const value = (full: string) => figures.find(({ name }) => name === full)?.median?.toPrecision(3) ?? '–';
+  return { noise: value(MEAN_NOISE_RATIO), error: value(MEAN_ERROR_RATIO) };
 }
 
 const three = (value: number) => (Math.abs(value) >= 1000 ? value.toFixed(0) : String(Number(value.toPrecision(3))));
@@ -84,6 +122,7 @@ export function productTable(all: readonly ProductMeasurement[]): string {
     'relMSE × samples',
     'brightness',
     'noise × time, peer / Glanz',
+    'error after 1 s, peer / Glanz',
   ];
   const columns = (one: ProductMeasurement) => [
     three(one.setUpMs),
@@ -104,8 +143,9 @@ export function productTable(all: readonly ProductMeasurement[]): string {
               ...columns(peer),
               three(mean(peer.runs.map(({ brightness }) => brightness))),
               three(noiseTime(peer) / noiseTime(one)),
+              three(errorAfter(peer, EQUAL_TIME) / errorAfter(one, EQUAL_TIME)),
             ]
-          : ['–', '–', '–', '–', '–']),
+          : ['–', '–', '–', '–', '–', '–']),
       ];
     });
   return [head, head.map(() => '---'), ...rows].map((row) => `| ${row.join(' | ')} |`).join('\n');

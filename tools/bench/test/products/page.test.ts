@@ -26,6 +26,13 @@ const report = (...details: ProductMeasurement[]): ProductReport => ({
   details,
 });
 
+const NOISE = {
+  name: "noise × wall time, three-gpu-pathtracer's over Glanz's, geometric mean",
+  unit: '×',
+  runs: 1,
+  median: 12.3,
+};
+
 it('joins reports: of two measurements of the same, the later one', () => {
   const all = joinedMeasurements([report(measurement('a', 1), measurement('b', 2)), report(measurement('a', 3))]);
   expect(all.map(({ product, setUpMs }) => [product, setUpMs])).toEqual([
@@ -38,17 +45,20 @@ it('writes the page and the figures of reports, and refuses other files', () => 
   const folder = mkdtempSync(join(tmpdir(), 'glanz-products-'));
   const file = join(folder, 'report.json');
   writeFileSync(file, JSON.stringify(report(measurement('a', 1))));
-  writeProductPage(readReports([file]), [{ name: 'x' }], '12.3', folder);
+  const error = "relMSE after 1 s of wall time, three-gpu-pathtracer's over Glanz's, geometric mean";
+  const figures = [{ name: error, unit: '×', runs: 1, median: 45.61 }, NOISE];
+  writeProductPage(readReports([file]), figures, folder);
   const page = readFileSync(join(folder, 'products.md'), 'utf8');
-  expect(page).toContain('**12.3×**');
+  expect(page).toContain('takes **12.3×** as long to the same noise');
+  expect(page).toContain('after a second is **45.6×** as large');
   expect(page).toContain('Measured on a GPU (commits abc1234);');
   expect(page).toContain('- `a`: a bottle\n');
   expect(page).not.toContain('a ring');
   const data = join(folder, 'products.json');
-  expect(JSON.parse(readFileSync(data, 'utf8'))).toMatchObject({ figures: [{ name: 'x' }] });
+  expect(JSON.parse(readFileSync(data, 'utf8'))).toMatchObject({ figures });
   // What was joined before keeps its commits.
   writeFileSync(file, JSON.stringify({ ...report(measurement('b', 1)), machine: { commit: 'def5678' } }));
-  writeProductPage(readReports([data, file]), [], '1', folder);
+  writeProductPage(readReports([data, file]), [], folder);
   expect(readFileSync(join(folder, 'products.md'), 'utf8')).toContain('(commits abc1234, def5678);');
   writeFileSync(file, '{"benchmark":"lights"}');
   expect(() => readReports([file])).toThrow(expect.objectContaining({ code: 'bench/missing-data' }));

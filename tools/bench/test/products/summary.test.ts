@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { ProductMeasurement, RendererName } from '../../src/products/measure';
-import { figuresOf, productTable, remarks } from '../../src/products/summary';
+import { errorAfter, figuresOf, meansOf, productTable, remarks } from '../../src/products/summary';
 
 /** Two runs of 10 samples: 2 and 4 ms a sample, and relMSE × samples of `error` less and more a half. */
 function measurement(product: string, renderer: RendererName, error: number, own = 1e-6): ProductMeasurement {
@@ -65,6 +65,30 @@ describe('figures of products', () => {
     expect(figure(name, false)!.target).toBeUndefined();
   });
 
+  it('compare errors after a second, in which what is no noise stays', () => {
+    // 6 ms a sample (the median of 4 and 8): noise 0.3 of a sample falls to 0.3 × 6 / 1000, and 0.02 stays.
+    const [one] = all as [ProductMeasurement];
+    const biased = {
+      ...one,
+      noise: [0.2, 0.4],
+      runs: one.runs.map((run, i) => ({ ...run, relMse: [0.04, 0.06][i]! })),
+    };
+    expect(errorAfter(biased, 1000)).toBeCloseTo(0.0018 + 0.02, 12);
+    // Twice the time halves the noise alone.
+    expect(errorAfter(biased, 2000)).toBeCloseTo(0.0009 + 0.02, 12);
+    // There is no image of less than a sample.
+    expect(errorAfter(biased, 1)).toBeCloseTo(0.3 + 0.02, 12);
+    // An error that is less than the noise is no negative bias.
+    expect(errorAfter({ ...biased, noise: [0.9] }, 1000)).toBeCloseTo(0.0054, 12);
+    // In these there is noise alone: the ratio is that of noise × time, unless there is a bias.
+    const name = "a, 32 × 18: relMSE after 1 s of wall time, three-gpu-pathtracer's over Glanz's";
+    expect(figure(name)!.median).toBeCloseTo(10, 9);
+    const whole = figure("relMSE after 1 s of wall time, three-gpu-pathtracer's over Glanz's, geometric mean")!;
+    expect([whole.min, whole.median, whole.max].map((value) => Number(value!.toFixed(9)))).toEqual([10, 20, 40]);
+    expect(meansOf(figuresOf(all, true))).toEqual({ noise: '20.0', error: '20.0' });
+    expect(meansOf(figuresOf([one], true))).toEqual({ noise: '–', error: '–' });
+  });
+
   it('state the error of the reference, and its brightness without an interval where there is none', () => {
     expect(figure('a, 32 × 18: relMSE of the reference itself')!.median).toBe(1e-6);
     const name = "a, 32 × 18: brightness with other random numbers over the reference's";
@@ -86,8 +110,8 @@ it('writes a line for each product, with dashes where the peer is absent', () =>
   const lines = productTable(all).split('\n');
   expect(lines).toHaveLength(5);
   expect(new Set(lines.map((line) => line.split('|').length)).size).toBe(1);
-  expect(lines[2]).toBe('| a | 32 × 18 | 500 | 3 | 0.1 | 1.0e-6 | 500 | 3 | 1 | 1 | 10 |');
-  expect(lines[4]).toBe('| c | 32 × 18 | 500 | 3 | 0.1 | 1.0e-6 | – | – | – | – | – |');
+  expect(lines[2]).toBe('| a | 32 × 18 | 500 | 3 | 0.1 | 1.0e-6 | 500 | 3 | 1 | 1 | 10 | 10 |');
+  expect(lines[4]).toBe('| c | 32 × 18 | 500 | 3 | 0.1 | 1.0e-6 | – | – | – | – | – | – |');
 });
 
 it('says when the reference is too noisy for what is measured, or times are not of the GPU', () => {
