@@ -222,7 +222,7 @@ The error of an image after a given GPU time, for Glanz and for [three-gpu-patht
 `;
 
 /** The explanation of the plots; it follows them, so that the answer comes first. */
-const PAGE_NOTES = `- **References.** Small scenes whose reference images were made by another renderer, with standard errors; images are rendered at a larger size and averaged down to the reference's 128 × 128 pixels. For two product scenes the reference is a long render of Glanz in two independent halves, checked with other random numbers.
+const PAGE_NOTES = `- **References.** Small scenes whose reference images were made by another renderer, with standard errors; images are rendered at a larger size and averaged down to the reference's 128 × 128 pixels. For two product scenes the reference is a long render of Glanz in two independent halves, checked with other random numbers, and in newer reports by another estimator (path guiding, light paths, light candidates).
 - **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences between the material models do not count.
 - **FLIP.** The perceived difference when a viewer flips between the image and the reference (Andersson et al. 2020), on tone-mapped images.
 - **GPU time.** By timestamp queries around every submission. The cost of the queries is subtracted, which favours a renderer that submits often. three-gpu-pathtracer runs with its fastest batch size, the paths of all pixels in flight, and without its preview.

@@ -116,7 +116,7 @@ export async function measureProduct(plan: ProductPlan, log: (line: string) => v
     known = rest;
     writeReference(plan.referenceFile, long);
     log(
-      `${product}, ${width} × ${height}: reference of ${rest.samples} samples, own relMSE ${rest.ownRelMse.toExponential(2)}; other random numbers give ${rest.ratio.toFixed(5)} ± ${rest.ratio95.toFixed(5)} of its brightness`,
+      `${product}, ${width} × ${height}: reference of ${rest.samples} samples, own relMSE ${rest.ownRelMse.toExponential(2)}; another estimator gives ${rest.ratio.toFixed(5)} ± ${rest.ratio95.toFixed(5)} of its brightness`,
     );
   }
   const reference = readReference(plan.referenceFile);

@@ -44,6 +44,19 @@ export function joinedMeasurements(reports: readonly ProductReport[]): readonly 
 const sourcesOf = (reports: readonly ProductReport[]): Source[] =>
   reports.flatMap(({ sources, machine: { commit, date } }) => sources ?? [{ commit, date } as Source]);
 
+/** How the references were checked, which older reports did in another way. */
+function checkOf(all: readonly ProductMeasurement[]): string {
+  const checked = all.filter(({ reference }) => reference);
+  const other = checked.filter(({ reference }) => reference?.checkedBy);
+  const of = other.map(({ product, width, height }) => `${product} (${width} × ${height})`).join(', ');
+  const estimator =
+    'another unbiased estimator, which finds the same light by other densities: directions from a guide that is learned, light paths, one of four light samples, and independent random numbers';
+  const sampler = 'the same estimator with another sampler';
+  const by =
+    other.length === 0 ? sampler : other.length === checked.length ? estimator : `${sampler}, for ${of} ${estimator}`;
+  return `A third render checks the brightness of the image and of 256 blocks of it, with a quarter of the samples: by ${by}.`;
+}
+
 /** The page of the documentation. */
 export function productPage(reports: readonly ProductReport[], figures: readonly Figure[]): string {
   const all = joinedMeasurements(reports);
@@ -66,7 +79,7 @@ Models of products in the light that they are shown in, rendered by Glanz and by
 - **Noise × time.** The noise of three-gpu-pathtracer times its wall time, over that of Glanz: how many times as long it takes to the same noise. Only the noise counts, measured between independent runs, since a bias does not fall with time.
 - **Error after 1 s.** relMSE of an image after one second of wall time without set-up (at the median time of a sample, at least one sample), that of three-gpu-pathtracer over that of Glanz. It is the sum of the noise, which falls as 1 / samples, and of the rest of the measured relMSE (at least 0), which stays. The references are Glanz's, so the rest of the peer's error is mostly that it shows another image: it is no noise, and more time does not lower it.
 - **Brightness.** That of the peer's image over the reference's. Far from 1, it shows another image, and its error is no noise.
-- **References.** Long renders of Glanz in two halves with random numbers of their own, whose difference gives the stated error of the reference. A third render with another sampler checks the brightness.
+- **References.** Long renders of Glanz in two halves with random numbers of their own, whose difference gives the stated error of the reference. ${checkOf(all)}
 - **–** Not measured: three-gpu-pathtracer has no subsurface scattering, or the time of the measurement was over.
 
 Over all products and sizes, as geometric means, three-gpu-pathtracer takes **${noise}×** as long to the same noise, and its error after a second is **${error}×** as large. Measured on ${gpus} (commits ${commits}); another GPU of the host was at work meanwhile.

@@ -164,10 +164,16 @@ export function remarks(all: readonly ProductMeasurement[]): string[] {
       notes.push(
         `${where}: the reference's own noise is ${(100 * share).toFixed(0)} % of what was measured; it is taken off, but raise --reference`,
       );
-    const { outside, blocks, checkSamples } = one.reference;
+    const { outside, blocks, checkSamples, checkedBy, ratio, ratio95 } = one.reference;
+    const check = `${checkedBy ? 'another estimator' : 'other random numbers'} (${checkSamples} samples)`;
     if (outside > 0.03 * blocks)
       notes.push(
-        `${where}: with other random numbers (${checkSamples} samples) ${outside} of ${blocks} blocks differ from the reference by more than three standard errors`,
+        `${where}: by ${check} ${outside} of ${blocks} blocks differ from the reference by more than three standard errors`,
+      );
+    // Three standard errors, as of the blocks; of fewer than 32 samples there is none, and a report has null for infinity.
+    if (Number.isFinite(ratio95) && Math.abs(ratio - 1) > (3 / 1.96) * ratio95)
+      notes.push(
+        `${where}: by ${check} the image has ${ratio.toFixed(5)} ± ${ratio95.toFixed(5)} of the reference's brightness`,
       );
   }
   return notes;

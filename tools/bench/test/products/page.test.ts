@@ -3,7 +3,13 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { expect, it } from 'vitest';
 import type { ProductMeasurement } from '../../src/products/measure';
-import { joinedMeasurements, readReports, writeProductPage, type ProductReport } from '../../src/products/page';
+import {
+  joinedMeasurements,
+  productPage,
+  readReports,
+  writeProductPage,
+  type ProductReport,
+} from '../../src/products/page';
 
 const measurement = (product: string, setUpMs: number): ProductMeasurement => ({
   product,
@@ -63,4 +69,19 @@ it('writes the page and the figures of reports, and refuses other files', () => 
   writeFileSync(file, '{"benchmark":"lights"}');
   expect(() => readReports([file])).toThrow(expect.objectContaining({ code: 'bench/missing-data' }));
   rmSync(folder, { recursive: true });
+});
+
+it('says by what the references were checked', () => {
+  const known = { ownRelMse: 1e-6, samples: 8, checkSamples: 2, ratio: 1, ratio95: 0.1, outside: 0, blocks: 256 };
+  const checkedBy = { sampler: 'independent', guiding: 1, lightPaths: 0.25, lightCandidates: 4 } as const;
+  const [a, b] = [measurement('a', 1), measurement('b', 1)];
+  const [older, newer] = [
+    { ...a, reference: known },
+    { ...b, reference: { ...known, checkedBy } },
+  ];
+  const same = 'by the same estimator with another sampler';
+  const other = 'another unbiased estimator';
+  expect(productPage([report(older)], [])).toContain(`${same}.`);
+  expect(productPage([report(newer)], [])).toContain(`by ${other}`);
+  expect(productPage([report(older, newer)], [])).toContain(`${same}, for b (32 × 18) ${other}`);
 });

@@ -38,7 +38,7 @@ it('runs from start to end on any GPU', async () => {
     }
     // Other random numbers give other images.
     expect(runs[0]!.relMseWithReference).not.toBe(runs[1]!.relMseWithReference);
-    expect(reference).toMatchObject({ samples: 8, checkSamples: 2 });
+    expect(reference).toMatchObject({ samples: 8, checkSamples: 2, checkedBy: { guiding: 0.002, lightPaths: 0.25 } });
     expect(reference!.ownRelMse).toBeGreaterThan(0);
     expect(reference!.ownRelMse).toBeLessThan(runs[0]!.relMseWithReference);
   } finally {

@@ -117,5 +117,16 @@ it('writes a line for each product, with dashes where the peer is absent', () =>
 it('says when the reference is too noisy for what is measured, or times are not of the GPU', () => {
   expect(remarks(all)).toEqual([]);
   expect(remarks([measurement('a', 'glanz', 0.1, 0.01)])).toEqual([expect.stringContaining('50 %')]);
+  const checked = (found: { readonly ratio?: number; readonly outside?: number }) => {
+    const [one] = all as [ProductMeasurement];
+    const checkedBy = { sampler: 'independent', guiding: 1, lightPaths: 0.25, lightCandidates: 4 } as const;
+    return remarks([{ ...one, reference: { ...one.reference!, checkedBy, ...found } }]);
+  };
+  // The interval of 95 % is ± 0.02: three standard errors are 0.0306.
+  expect(checked({ ratio: 1.03, outside: 7 })).toEqual([]);
+  expect(checked({ ratio: 0.969 })).toEqual([
+    expect.stringContaining('another estimator (16 samples) the image has 0.969'),
+  ]);
+  expect(checked({ outside: 8 })).toEqual([expect.stringContaining('8 of 256 blocks')]);
   expect(remarks([{ ...all[0]!, stamped: false }])).toEqual([expect.stringContaining('wall times')]);
 });
