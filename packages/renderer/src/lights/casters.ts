@@ -79,14 +79,15 @@ function join(list: Sphere[]): void {
  * @param scene What is in it.
  * @param isVisible Whether an instance can be hit.
  * @param parameters Of a material.
- * @param options `paths`: light paths of a sample; `isSmooth`: whether rays of opaque surfaces with normals leave from
- * the smooth surface, so that light paths do not go on from there.
+ * @param options `isSmooth`: whether rays of opaque surfaces with normals leave from the smooth surface, so that light
+ * paths do not go on from there.
+ * @returns The table, without the number of light paths, its second value.
  */
 export function castersOf(
   { instances, materials, meshes }: Scene,
   isVisible: (instance: Instance) => boolean,
   parameters: typeof parametersOf,
-  { paths, isSmooth }: { readonly paths: number; readonly isSmooth: boolean },
+  { isSmooth }: { readonly isSmooth: boolean },
 ): Float32Array<ArrayBuffer> {
   const chosen = materials.map((material) => {
     const p = parameters(material);
@@ -109,7 +110,6 @@ export function castersOf(
   }
   const table = new Float32Array(4 * (2 * CASTERS + 1));
   table[0] = list.length;
-  table[1] = paths;
   const total = list.reduce((sum, sphere) => sum + sphere[3] ** 2, 0);
   let below = 0;
   list.forEach((sphere, i) => {

@@ -70,6 +70,8 @@ export class GpuScene {
   /** Derived when they are first asked for after an edit that they depend on, and kept until the next. */
   #features: KernelFeatures | undefined;
   #environment: EnvironmentData;
+  /** How often instances, meshes or materials have changed. */
+  changes = 0;
 
   constructor(device: GPUDevice, memory: GpuMemory, scene: Scene, geometry: Geometry, choices: SceneChoices) {
     this.#device = device;
@@ -145,7 +147,7 @@ export class GpuScene {
       restoreScene();
       [this.#geometry, this.#environment] = [geometry, environment];
       for (const restoreRecords of restore) restoreRecords();
-      this.#features = undefined;
+      this.#changed();
       this.rewrite();
     });
   }
@@ -207,7 +209,7 @@ export class GpuScene {
    * @param emission Whether what it emits may have changed: only then the lights are built again.
    */
   updateMaterial(index: number, emission: boolean): boolean {
-    this.#features = undefined;
+    this.#changed();
     if (emission) this.#updateGroups();
     this.#materials.write(index);
     this.#writeNodes(this.#geometry.placement.takeChangedNodes());
@@ -249,6 +251,7 @@ export class GpuScene {
   updateInstances(geometry: Geometry, changes: readonly InstanceChange[]): boolean {
     const { placement } = geometry;
     this.#geometry = geometry;
+    this.changes++;
     this.#writeNodes(placement.takeChangedNodes());
     const isUseSame = changes
       .map(({ before, after }) => this.#materials.replaceUse(before, after))
@@ -305,7 +308,12 @@ export class GpuScene {
   #setGeometry(geometry: Geometry): void {
     this.#geometry = geometry;
     this.#materials.forgetUse();
+    this.#changed();
+  }
+
+  #changed(): void {
     this.#features = undefined;
+    this.changes++;
   }
 
   /** Makes the buffers of shapes, still empty but for what belongs to materials. */

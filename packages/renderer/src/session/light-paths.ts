@@ -50,6 +50,9 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
   let kernels = main.kernels;
   let frame: ArrayBuffer | undefined;
   let count = 0;
+  let table: ReturnType<typeof castersOf> | undefined;
+  /** What the table was made from. */
+  let changes = 0;
   const buffers: Readonly<Record<string, () => GPUBuffer>> = {
     light_casters: () => (casters ??= memory.buffer('light casters', 16 * (2 * CASTERS + 1), UNIFORM)),
     light_splats: () => (splats ??= memory.buffer('light paths', SPLAT_BYTES * main.pixels, STORAGE)),
@@ -83,10 +86,13 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
     writeFrame(data) {
       frame = data;
       count = Math.min(0xffffff, Math.max(1, Math.round(options.lightPaths * main.pixels)));
-      const table = castersOf(scene, (instance) => isVisible(scene, instance), parameters, {
-        paths: count,
-        isSmooth: options.shadowTerminator === 'smooth',
-      });
+      // A look at each instance: not for each move of the camera.
+      if (!table || changes !== gpuScene.changes)
+        table = castersOf(scene, (instance) => isVisible(scene, instance), parameters, {
+          isSmooth: options.shadowTerminator === 'smooth',
+        });
+      ({ changes } = gpuScene);
+      table[1] = count;
       memory.write(buffer('light_casters') as GPUBuffer, table);
       if (table[0] === 0) count = 0;
       paths?.writeFrame(data);
