@@ -52,15 +52,22 @@ export interface GroundTruthOptions {
   readonly sampler?: NonNullable<PathTracerOptions['sampler']>;
   /** See `PathTracerOptions.lightPaths`. Default 0. */
   readonly lightPaths?: number;
+  /** Edges of a path at most. Default that of the reference. */
+  readonly maxDepth?: number;
 }
 
 /** How a scene of the reference set is rendered: as its reference was, with single scattering. */
 export function groundTruthOptions(
   truth: GroundTruth,
-  { variant = 'full', seed = 0, sampler = 'blue-noise', lightPaths = 0 }: Omit<GroundTruthOptions, 'samples' | 'noise'>,
+  {
+    variant = 'full',
+    seed = 0,
+    sampler = 'blue-noise',
+    lightPaths = 0,
+    maxDepth = truth.maxDepth(variant),
+  }: Omit<GroundTruthOptions, 'samples' | 'noise'>,
 ): PathTracerOptions {
   const { width, height } = truth.description.film;
-  const maxDepth = truth.maxDepth(variant);
   return { width, height, seed, sampler, lightPaths, maxDepth, camera: 0, multipleScattering: false };
 }
 

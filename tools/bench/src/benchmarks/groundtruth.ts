@@ -5,6 +5,7 @@ import {
   GROUND_TRUTH_CASES,
   GroundTruth,
   referenceFolder,
+  type ReferenceImage,
   compareImages,
   convergenceSlope,
   failures,
@@ -30,6 +31,7 @@ export const benchmark: Benchmark = {
   options: {
     scenes: { type: 'string', help: 'only these, by name, separated by commas' },
     samples: { type: 'string', help: 'samples per pixel of each run' },
+    depth: { type: 'string', help: "edges of a path at most; default that of each scene's reference" },
     'light-paths': { type: 'string', help: 'light paths per pixel and sample; default 0' },
     slopes: {
       type: 'string',
@@ -49,6 +51,7 @@ export const benchmark: Benchmark = {
     const runs = quick ? 2 : 4;
     const samples = wholeNumber('samples', values['samples']) ?? (quick ? 4 : software ? 32 : 256);
     const lightPaths = Number(values['light-paths'] ?? 0);
+    const depth = wholeNumber('depth', values['depth']);
     const requested = values['scenes']?.split(',');
     const unknown = requested?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
     if (unknown !== undefined)
@@ -68,6 +71,7 @@ export const benchmark: Benchmark = {
       const { width, height } = truth.description.film;
       const sum = new Float32Array(width * height * 3);
       const perSample: number[] = [];
+      const means: number[] = [];
       const start = performance.now();
       try {
         await truth.scene();
@@ -78,9 +82,16 @@ export const benchmark: Benchmark = {
         continue;
       }
       for (let seed = 1; seed <= runs; seed++) {
-        const { image, comparison } = await renderGroundTruth(device, truth, { samples, variant, seed, lightPaths });
+        const { image, comparison } = await renderGroundTruth(device, truth, {
+          samples,
+          variant,
+          seed,
+          lightPaths,
+          ...(depth === undefined ? {} : { maxDepth: depth }),
+        });
         image.forEach((value, i) => (sum[i]! += value / runs));
         perSample.push(comparison.relMsePerSample);
+        means.push(image.reduce((all, value) => all + value, 0) / image.length);
       }
       const whole = compareImages(sum, samples * runs, truth.image(variant), { width, height }, truth.tolerance);
       if (whole.passed) agreeing++;
@@ -94,6 +105,7 @@ export const benchmark: Benchmark = {
           target === undefined ? undefined : { value: target, relation: '<=', source: 'sample efficiency aimed at' },
         ),
       );
+      figures.push(meanOver(`${name}: mean over the reference's, less 1`, means, truth.image(variant)));
       const mean = perSample.reduce((a, b) => a + b, 0) / runs;
       figures.push({
         name: `${name}: samples of the reference renderer per sample`,
@@ -137,13 +149,32 @@ export const benchmark: Benchmark = {
     });
     device.destroy();
     return {
-      settings: { samples, runs, lightPaths, multipleScattering: false },
+      settings: { samples, runs, lightPaths, ...(depth === undefined ? {} : { depth }), multipleScattering: false },
       gpu: { name: adapterName, software },
       figures,
       notes,
     };
   },
 };
+
+/**
+ * The mean of all pixels and channels over that of the reference, less 1, with the errors of both: the runs differ by
+ * ours, and the reference states its own.
+ */
+function meanOver(name: string, means: readonly number[], { mean, standardError }: ReferenceImage): Figure {
+  const truth = mean.reduce((all, value) => all + value, 0) / mean.length;
+  const ours = estimated(
+    name,
+    '1',
+    means.map((value) => value / truth - 1),
+  );
+  let variance = 0;
+  // Channels share their paths: at worst they err together.
+  for (let i = 0; i < mean.length; i += 3)
+    variance += (standardError[i]! + standardError[i + 1]! + standardError[i + 2]!) ** 2;
+  const own = Math.sqrt(variance) / mean.length / truth;
+  return { ...ours, ci95: Math.hypot(ours.ci95 as number, 1.96 * own) };
+}
 
 function wholeNumber(name: string, text: string | undefined): number | undefined {
   if (text === undefined) return undefined;
