@@ -7,16 +7,17 @@ export interface ConvexGlass {
   readonly ior: number;
 }
 
-type Vector = readonly [number, number, number];
-const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const along = (a: Vector, t: number, b: Vector): Vector => [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]];
-const unit = (a: Vector): Vector => {
+/** A point or direction. */
+export type Vector = readonly [number, number, number];
+export const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const along = (a: Vector, t: number, b: Vector): Vector => [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]];
+export const unit = (a: Vector): Vector => {
   const length = Math.hypot(...a);
   return [a[0] / length, a[1] / length, a[2] / length];
 };
 
-/** Fresnel's equations for the relative index and the cosine of incidence; 1 where all is reflected. */
-function reflectance(eta: number, cosine: number): number {
+/** Fresnel's equations, of light that is not polarized, for the relative index and the cosine of incidence; 1 where all is reflected. */
+export function reflectance(eta: number, cosine: number): number {
   const square = 1 - (1 - cosine * cosine) / (eta * eta);
   if (square <= 0) return 1;
   const refracted = Math.sqrt(square);
@@ -25,14 +26,14 @@ function reflectance(eta: number, cosine: number): number {
   return (s * s + p * p) / 2;
 }
 
-/**
- * Traces rays from outside by splitting: what a facet reflects and what it lets through are both followed, in double
- * precision, without any offset of rays, by planes alone. Nothing of it is Glanz's.
- *
- * @returns A function that gives the part of a ray's energy that leaves within so many edges, for each number of edges
- * up to `maxEdges`.
- */
-export function convexGlass({ positions, indices, ior }: ConvexGlass, maxEdges: number) {
+/** Where a ray meets a polyhedron. */
+export interface Met {
+  readonly t: number;
+  readonly facet: number;
+}
+
+/** The planes of a convex polyhedron, met in double precision, without any offset of rays. */
+export function convexPlanes({ positions, indices }: Omit<ConvexGlass, 'ior'>) {
   const corner = (i: number): Vector => [0, 1, 2].map((k) => positions[3 * indices[i]! + k]!) as unknown as Vector;
   const facets = Array.from({ length: indices.length / 3 }, (_, t) => {
     const [a, b, c] = [corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)];
@@ -54,7 +55,7 @@ export function convexGlass({ positions, indices, ior }: ConvexGlass, maxEdges: 
     return found;
   };
   /** Where a ray leaves the polyhedron that it is in. */
-  const leave = (origin: Vector, direction: Vector, from: number): { t: number; facet: number } => {
+  const leave = (origin: Vector, direction: Vector, from: number): Met => {
     const b = dot(origin, direction);
     const end = along(origin, Math.sqrt(Math.max(b * b - dot(origin, origin) + radius * radius, 0)) - b, direction);
     let best = { t: Infinity, facet: -1 };
@@ -67,8 +68,23 @@ export function convexGlass({ positions, indices, ior }: ConvexGlass, maxEdges: 
     }
     return best;
   };
-  /** Where a ray from outside enters it, if it does. */
-  const enter = (origin: Vector, direction: Vector): { t: number; facet: number } | undefined => {
+  /** Where a ray from outside the sphere around enters it, if it does. */
+  const enter = (origin: Vector, direction: Vector): Met | undefined => {
+    const b = dot(origin, direction);
+    const square = b * b - dot(origin, origin) + radius * radius;
+    if (square < 0) return undefined;
+    // Most rays enter by a facet near to where they meet the sphere: a point of its plane that is behind no other.
+    const close = near(along(origin, -b - Math.sqrt(square), direction));
+    let [t, found] = [-Infinity, -1];
+    for (const i of close) {
+      const { n, distance } = facets[i]!;
+      const slope = dot(n, direction);
+      const at = (distance - dot(n, origin)) / slope;
+      if (slope < 0 && at > t) [t, found] = [at, i];
+    }
+    const point = along(origin, t, direction);
+    if (found >= 0 && close.every((i) => dot(facets[i]!.n, point) < facets[i]!.distance + 1e-12))
+      return { t, facet: found };
     let [first, last, facet] = [-Infinity, Infinity, -1];
     facets.forEach(({ n, distance }, i) => {
       const slope = dot(n, direction);
@@ -78,12 +94,24 @@ export function convexGlass({ positions, indices, ior }: ConvexGlass, maxEdges: 
     });
     return first < last ? { t: first, facet } : undefined;
   };
+  return { leave, enter, normal: (facet: number): Vector => facets[facet]!.n };
+}
 
+/**
+ * Traces rays from outside by splitting: what a facet reflects and what it lets through are both followed. Nothing of
+ * it is Glanz's.
+ *
+ * @returns A function that gives the part of a ray's energy that leaves within so many edges, for each number of edges
+ * up to `maxEdges`.
+ */
+export function convexGlass(glass: ConvexGlass, maxEdges: number) {
+  const { ior } = glass;
+  const { leave, enter, normal } = convexPlanes(glass);
   return (origin: Vector, direction: Vector): Float64Array => {
     const left = new Float64Array(maxEdges + 1);
     const met = enter(origin, direction);
     if (!met) return left.fill(1, 1);
-    let { n } = facets[met.facet]!;
+    let n = normal(met.facet);
     let cosine = -dot(n, direction);
     let kept = 1 - reflectance(ior, cosine);
     left[2] = 1 - kept;
@@ -96,7 +124,7 @@ export function convexGlass({ positions, indices, ior }: ConvexGlass, maxEdges: 
     let from = met.facet;
     for (let edges = 3; edges <= maxEdges; edges++) {
       const exit = leave(o, d, from);
-      ({ n } = facets[exit.facet]!);
+      n = normal(exit.facet);
       o = along(o, exit.t, d);
       cosine = dot(n, d);
       const part = reflectance(1 / ior, cosine);
