@@ -70,7 +70,7 @@ describe('adaptive sampling with light paths', () => {
   it('has the mean of images without either', async () => {
     const adaptive = await measure({}, { noise: NOISE, samples: 256 });
     const even = await measure({}, { samples: 64 });
-    const plain = await measure({ lightPaths: 0 }, { samples: 128 });
+    const plain = await measure({ lightPaths: 0 }, { samples: 64 });
     // Light paths fall on some tiles that are still rendered, and on others that are done.
     expect(adaptive.active.some((active) => active > 0 && active < 0.8)).toBe(true);
     // The means of 8 films have standard errors of 0.07 and 0.08 %: 0.5 % is beyond four of both together. Without the
