@@ -47,6 +47,8 @@ const LATER = {
   './rare-kernels': 'glanz-viewer.rare-kernels.min.js',
   './light-kernels': 'glanz-viewer.light-kernels.min.js',
   './session/light-paths': 'glanz-viewer.light-paths.min.js',
+  './reuse-kernels': 'glanz-viewer.reuse-kernels.min.js',
+  './session/light-reuse': 'glanz-viewer.light-reuse.min.js',
   './paged/pages': 'glanz-viewer.pages.min.js',
   './paged-kernels': 'glanz-viewer.paged-kernels.min.js',
   './compact-shapes': 'glanz-viewer.compact-shapes.min.js',
@@ -78,6 +80,8 @@ const SOURCES = {
   './rare-kernels': '../renderer/src/integrator/rare-kernels',
   './light-kernels': '../renderer/src/integrator/light-kernels',
   './session/light-paths': '../renderer/src/session/light-paths',
+  './reuse-kernels': '../renderer/src/integrator/reuse-kernels',
+  './session/light-reuse': '../renderer/src/session/light-reuse',
   './paged/pages': '../renderer/src/storage/paged/pages',
   './paged-kernels': '../renderer/src/integrator/paged-kernels',
   './compact-shapes': '../renderer/src/geometry/compact-shapes',
@@ -173,12 +177,8 @@ const sources = (missing, files) => ({
 const beside = (files) => ({
   name: 'beside',
   setup(context) {
-    context.onResolve(
-      {
-        filter:
-          /^(@glanz\/|meshoptimizer\/|\.\/(save-image|material-colors|animation-player|stage|ldr-environment|load-other|prompt|realtime|gpu-trees|guide-kernels|rare-kernels|light-kernels|soft-shadows|noise-target|film-kernels|fit-textures|fit-images|replace-mesh|warm-up-scene|paged\/pages|paged-kernels|compact-shapes|compact-kernels|session\/guide-training|session\/light-paths)$)/,
-      },
-      ({ path }) => (Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined),
+    context.onResolve({ filter: /^(@glanz|meshoptimizer|\.)\// }, ({ path }) =>
+      Object.hasOwn(files, path) ? { path: `./${files[path]}`, external: true } : undefined,
     );
     context.onResolve({ filter: /^\.\/(draco|basis|ktx2)$/ }, ({ path, importer }) =>
       /[\\/]decoders[\\/]index\.ts$/.test(importer)

@@ -15,7 +15,11 @@ import { hasInterior } from './materials/interiors';
 const MAX_INTERIORS = 0x7fff;
 
 /** The options of a path tracer, validated, with their defaults. */
-export type TracerSettings = PathTracerOptions & ResolvedSettings;
+export type TracerSettings = PathTracerOptions &
+  ResolvedSettings & {
+    /** See `PathTracer.setLightReuse`. */
+    readonly lightReuse?: boolean | undefined;
+  };
 
 /**
  * Validates options by their table and adds the defaults of those that are missing.

@@ -1,3 +1,4 @@
+import { loadPart } from '@glanz/wgsl';
 import type { Camera, Scene } from '@glanz/scene';
 import { EditSession } from './session/edit-session';
 import { deviceLost, RenderError, type DeviceError } from './errors';
@@ -235,6 +236,39 @@ export class PathTracer extends TracerEdits {
     if (!this.#destroyed) await this.#session.aovs.fill(signal);
   }
 
+  /**
+   * Compiles the kernels with which films can reuse light samples of the frame before, for moving views (see {@link
+   * reset}), or those without. The film continues. No effect with catchers, without lights, and for scenes so large that
+   * the GPU's buffers do not hold them.
+   *
+   * @returns When the kernels are there.
+   * @throws {DeviceError} `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
+   */
+  async setLightReuse(on: boolean): Promise<void> {
+    const { lightReuse } = await loadPart('light-reuse', import('./session/light-reuse'));
+    this.#check();
+    this.#integrator.reuse ??= lightReuse(this.#memory, () => {
+      const { width, height } = this.#session.film;
+      return { width, height, lights: this.#gpuScene.lightIds.generation };
+    });
+    await this.#edits.run(() => {
+      this.#check();
+      const before = this.#options.lightReuse;
+      const request = (lightReuse = false) => {
+        this.#options = { ...this.#options, lightReuse };
+      };
+      return {
+        effect: 'keeps',
+        isStale: () => false,
+        apply: () => {
+          request(on);
+          return false;
+        },
+        undo: () => request(before),
+      };
+    });
+  }
+
   get statistics(): RenderStatistics {
     const { geometry } = this.#editor;
     const triangles = geometry.triangleCount;
@@ -410,12 +444,18 @@ export class PathTracer extends TracerEdits {
    * one that it has, at first 0. Edits keep it. Samples have numbers, from which their random numbers follow, so that
    * several tracers can render different samples of one image: one renders 50 samples, another `reset({ firstSample:
    * 50 })` and 50 samples more, and `mergeFilmStates` of `@glanz/renderer/film` adds up what `saveFilm()` returns.
+   * `lightReuse`: whether the film takes light samples from the film before, if that has left some, and leaves its own
+   * (ReSTIR DI); with {@link setLightReuse} alone. The film is biased then, and consecutive films have similar noise.
+   * Default false, and edits begin films without.
    * @throws {RenderError} `renderer/samples` for a number out of range
    */
-  reset({ firstSample }: { readonly firstSample?: number | undefined } = {}): void {
+  reset({
+    firstSample,
+    lightReuse = false,
+  }: { readonly firstSample?: number | undefined; readonly lightReuse?: boolean | undefined } = {}): void {
     this.#check();
     if (firstSample !== undefined) checkFirstSample(firstSample);
-    this.#restart('reprojects', firstSample);
+    this.#restart('reprojects', firstSample, undefined, lightReuse);
   }
 
   /**
@@ -527,11 +567,11 @@ export class PathTracer extends TracerEdits {
     });
   }
 
-  #restart(effect: EditEffect, firstSample?: number, moves?: readonly Move[]): void {
+  #restart(effect: EditEffect, firstSample?: number, moves?: readonly Move[], lightReuse = false): void {
     const { flags } = this.#integrator.kernels.features;
     if (Object.entries(viewFlags(this.#camera, this.#options.filter)).every(([name, value]) => flags[name] === value))
       this.#shownCamera = this.#camera;
-    this.#session.restart(effect, firstSample, moves);
+    this.#session.restart(effect, firstSample, moves, lightReuse);
   }
 
   #check(): void {

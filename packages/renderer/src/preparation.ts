@@ -107,6 +107,7 @@ export function kernelFeatures(features: KernelFeatures, camera: Camera, options
         !(CATCHER || CULLING_ALL || PATH_STATE || CLAMP_INDIRECT) &&
         camera.type === 'perspective',
       LIGHT_CANDIDATES: options.lightCandidates > 1,
+      LIGHT_REUSE: options.lightReuse === true && NEXT_EVENT === true && !CATCHER && !features.pages,
       GUIDE: options.guiding > 0 || features.flags.PANES === true,
       SHADOW_SOFTNESS: features.flags.CATCHER === true && options.shadowSoftness > 0,
     },

@@ -1,7 +1,12 @@
 export { TemporalFilter } from './temporal-filter';
 export { RealtimeIntegrator } from './realtime-integrator';
 export { TEMPORAL_AOVS } from './options';
-export type { FrameIntegrator, RealtimeOptions, RealtimeTracer } from './realtime-integrator';
+export type {
+  FrameIntegrator,
+  RealtimeIntegratorOptions,
+  RealtimeOptions,
+  RealtimeTracer,
+} from './realtime-integrator';
 export type {
   FilterableCamera,
   FilterableTracer,

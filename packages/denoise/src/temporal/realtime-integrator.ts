@@ -30,8 +30,19 @@ export interface FrameIntegrator<Options extends object = object, Progress = unk
 export interface RealtimeTracer<Options extends object = object, Progress = unknown>
   extends FilterableTracer, FrameIntegrator<Options, Progress> {
   readonly samples: number;
-  reset(options: { readonly firstSample: number }): void;
+  reset(options: { readonly firstSample: number; readonly lightReuse?: boolean }): void;
   setAovs(names: readonly string[]): Promise<unknown>;
+  setLightReuse(on: boolean): Promise<unknown>;
+}
+
+/** Options of {@link RealtimeIntegrator.create}, besides those of the filter. */
+export interface RealtimeIntegratorOptions {
+  /**
+   * Whether frames reuse light samples of the frame before (ReSTIR DI). It takes noise from each frame where many lights
+   * compete, but little from the filtered image, since frames then have similar noise, and a frame takes longer: measure
+   * it. Default false.
+   */
+  readonly lightReuse?: boolean;
 }
 
 /** Options of {@link RealtimeIntegrator.render}, besides those of the tracer. */
@@ -68,6 +79,7 @@ export class RealtimeIntegrator<Options extends object = object, Progress = unkn
 > {
   readonly #filter: TemporalFilter;
   readonly #tracer: RealtimeTracer<Options, Progress>;
+  readonly #lightReuse: boolean;
   #image: GPUBuffer | undefined;
   #camera: FilterableCamera | undefined;
   /** Number of the first sample of the film, and samples that it had at the last frame. */
@@ -77,9 +89,10 @@ export class RealtimeIntegrator<Options extends object = object, Progress = unkn
   #limit = MAX_PIXELS;
   #destroyed = false;
 
-  private constructor(filter: TemporalFilter, tracer: RealtimeTracer<Options, Progress>) {
+  private constructor(filter: TemporalFilter, tracer: RealtimeTracer<Options, Progress>, lightReuse: boolean) {
     this.#filter = filter;
     this.#tracer = tracer;
+    this.#lightReuse = lightReuse;
   }
 
   /**
@@ -92,17 +105,18 @@ export class RealtimeIntegrator<Options extends object = object, Progress = unkn
   static async create<Options extends object, Progress>(
     device: GPUDevice,
     tracer: RealtimeTracer<Options, Progress>,
-    options: TemporalFilterOptions = {},
+    { lightReuse = false, ...options }: TemporalFilterOptions & RealtimeIntegratorOptions = {},
   ): Promise<RealtimeIntegrator<Options, Progress>> {
     const filter = await TemporalFilter.create(device, options);
     try {
+      if (lightReuse) await tracer.setLightReuse(true);
       await tracer.setAovs([...new Set([...tracer.aovs, ...TEMPORAL_AOVS])]);
       options.signal?.throwIfAborted();
     } catch (error) {
       filter.destroy();
       throw error;
     }
-    return new RealtimeIntegrator(filter, tracer);
+    return new RealtimeIntegrator(filter, tracer, lightReuse);
   }
 
   /** Pixels. */
@@ -198,7 +212,7 @@ export class RealtimeIntegrator<Options extends object = object, Progress = unkn
   #begin(): void {
     this.#first = (this.#first + this.#taken) % SAMPLE_NUMBERS || 1;
     this.#taken = 0;
-    this.#tracer.reset({ firstSample: this.#first });
+    this.#tracer.reset({ firstSample: this.#first, lightReuse: this.#lightReuse });
   }
 
   async #filtered(begun: boolean, instancesMoved: boolean | undefined): Promise<GPUBuffer | undefined> {

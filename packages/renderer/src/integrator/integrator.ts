@@ -36,6 +36,22 @@ export interface LightTracing {
   submit(batch: Batch, trace: (part: Batch) => void): void;
 }
 
+/** Light samples that frames keep for the next one: `session/light-reuse.ts`. */
+export interface LightReuse {
+  /** The film begins again. @param reuses Whether it takes light samples from the one before, and leaves some. */
+  restart(reuses: boolean): void;
+  /**
+   * A batch is about to be traced.
+   *
+   * @param rebind Called where textures have changed places.
+   * @returns Numbers of the film's frame and of the one before; 0 where there is none, the first one also where light
+   * samples are not reused.
+   */
+  begin(rebind: () => void): readonly [now: number, before: number];
+  /** What kernels bind by this name, if it is theirs. */
+  resource(name: string): GPUTextureView | undefined;
+}
+
 /** How long paths may become. */
 export interface DepthLimits {
   /** Edges. */
@@ -69,6 +85,7 @@ export class Integrator {
   #aovs: AovBatch | undefined;
   limits: DepthLimits;
   lights: LightTracing | undefined;
+  reuse: LightReuse | undefined;
   /** Number of the film's first sample. */
   firstSample = 0;
   #kernels: KernelSet;
@@ -209,9 +226,10 @@ export class Integrator {
   }
 
   #submit(batch: Batch, aovs: AovBatch): void {
-    this.#writeBatch(batch);
-    this.#writeAovs(aovs);
     const { kernels, features } = this.#kernels;
+    const [frame, before] = (features.flags.LIGHT_REUSE && this.reuse?.begin(() => this.rebind('film'))) || [0, 0];
+    this.#writeBatch(batch, frame, before);
+    this.#writeAovs(aovs);
     const paths = batch.pixelCount * batch.sampleCount * this.pathsPerSample;
     const recorded = features.flags.AOVS === true && batch.sampleOffset < aovs.end;
     this.#pass('glanz batch', (pass) => {
@@ -224,6 +242,7 @@ export class Integrator {
       const steps = this.#steps(features.flags);
       for (let step = 1; step <= steps; step++) {
         run('intersect', sized(0));
+        if (step === 1 && frame > 0 && !aovs.only) run('reservoirs', Math.ceil(paths / 64));
         run('shade', sized(0));
         if (step === steps) break;
         run('advance', 1);
@@ -270,7 +289,7 @@ export class Integrator {
     else pass.dispatchWorkgroupsIndirect(this.#paths.buffers.dispatch, work.indirect);
   }
 
-  #writeBatch(batch: Batch): void {
+  #writeBatch(batch: Batch, reuse = 0, reuseBefore = 0): void {
     const data = batchStruct.allocate();
     batchStruct.write(data, 0, {
       pixel_offset: batch.pixelOffset,
@@ -279,6 +298,8 @@ export class Integrator {
       sample_count: batch.sampleCount,
       path_count: batch.pixelCount * batch.sampleCount * this.pathsPerSample,
       first_sample: this.firstSample,
+      reuse,
+      reuse_before: reuseBefore,
     });
     this.#memory.write(this.#paths.buffers.batch, data);
   }
@@ -321,6 +342,8 @@ export class Integrator {
     if (own) return { buffer: own };
     const light = this.lights?.buffer(name);
     if (light) return { buffer: light };
+    const kept = this.reuse?.resource(name);
+    if (kept) return kept;
     const film = this.#film.buffer(name);
     return film ? { buffer: film, size: this.#film.bytes(film) } : this.#scene.resource(name);
   }

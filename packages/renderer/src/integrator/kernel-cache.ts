@@ -84,7 +84,8 @@ export class KernelCache {
         (name !== 'connect' || features.flags.NEXT_EVENT === true) &&
         (name !== 'aov' || features.flags.AOVS === true) &&
         (name !== 'aov_ids' || features.flags.AOV_IDS === true) &&
-        (!name.startsWith('light_') || features.flags.LIGHT_PATHS === true),
+        (!name.startsWith('light_') || features.flags.LIGHT_PATHS === true) &&
+        (name !== 'reservoirs' || features.flags.LIGHT_REUSE === true),
     );
     const listeners = new Set<ProgressListener>();
     const ready = new Map<KernelName, Kernel>();
@@ -104,9 +105,9 @@ export class KernelCache {
   async kernel(name: KernelName, features: KernelFeatures, parts?: KernelParts): Promise<Kernel> {
     if (name === 'noise' || name === 'relight' || name === 'variance' || name === 'aov' || name === 'aov_ids')
       parts = { root: (await loadPart('film-kernels', import('./film-kernels'))).FILM_KERNELS[name] };
-    const { GUIDE, LIGHT_PATHS, DISPERSION, LIGHT_PROFILES } = features.flags;
+    const { GUIDE, LIGHT_PATHS, LIGHT_REUSE, DISPERSION, LIGHT_PROFILES } = features.flags;
     const { OPENPBR_LOBES, OPENPBR_THIN_FILM, DELTA_TRANSMISSION } = features.flags;
-    const scatters = /shade|trace/.test(name);
+    const scatters = /shade|trace|reserv/.test(name);
     if (scatters && GUIDE) parts = (await loadPart('guide-kernels', import('./guide-kernels'))).GUIDED_SHADE;
     if (scatters && (DISPERSION || LIGHT_PROFILES))
       parts = (await loadPart('rare-kernels', import('./rare-kernels'))).rareKernel(name, features.flags, parts);
@@ -129,6 +130,13 @@ export class KernelCache {
         features,
         parts,
         [shade, camera, traversal, bvhClosestHit],
+      );
+    if (LIGHT_REUSE)
+      [features, parts] = (await loadPart('reuse-kernels', import('./reuse-kernels'))).reuseKernel(
+        name,
+        features,
+        parts,
+        shade,
       );
     const { compact, pages } = features;
     if (compact) parts = (await loadPart('compact-kernels', import('./compact-kernels'))).compactKernel(parts);

@@ -6,6 +6,7 @@ import lightSplats from '../lights/light_paths/light_splats.wesl';
 import lightStart from '../lights/light_paths/light_start.wesl';
 import lightTrace from '../lights/light_paths/light_trace.wesl';
 import lightWeights from '../lights/light_paths/light_weights.wesl';
+import { modulesOf } from './modules-of';
 import type { KernelFeatures, KernelName, KernelParts } from './pipelines';
 import type { ResourceName } from '../storage/resources';
 
@@ -51,18 +52,6 @@ const TRACE_CALLED = [
   'instances',
   'triangles',
 ];
-
-/** The modules of these names, among those that a module needs. */
-function modulesOf(root: WgslModule, names: readonly string[]): WgslModule[] {
-  const found = new Map<string, WgslModule>();
-  const visit = (module: WgslModule): void => {
-    if (found.has(module.name)) return;
-    found.set(module.name, module);
-    for (const dep of module.deps) visit('flag' in dep ? dep.module : dep);
-  };
-  visit(root);
-  return names.map((name) => found.get(`renderer/${name}`) as WgslModule);
-}
 
 /**
  * A kernel of a tracer with light paths. Loaded where they are requested.

@@ -90,6 +90,7 @@ export const KERNELS = [
   'light_begin',
   'light_start',
   'light_trace',
+  'reservoirs',
 ] as const;
 export type KernelName = (typeof KERNELS)[number];
 
@@ -209,6 +210,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     case 'shade':
     case 'light_start':
     case 'light_trace':
+    case 'reservoirs':
       return {
         root: shade,
         host: [path, surface, lights, ...surfaces],

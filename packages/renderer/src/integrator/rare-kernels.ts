@@ -18,6 +18,6 @@ export const rareKernel = (
     ...(parts?.host ?? []),
     flags.DISPERSION && dispersion,
     // Light paths ask for no light samples.
-    flags.LIGHT_PROFILES && name === 'shade' && lightProfile,
+    flags.LIGHT_PROFILES && name !== 'light_trace' && lightProfile,
   ],
 });

@@ -61,6 +61,16 @@ const INTERIOR = {
   wavelength: 'f32',
 } as const;
 
+/** The light sample that was chosen for a path's first vertex, see reservoirs.wesl. */
+const CHOSEN = {
+  /** Its record. */
+  chosen_light: 'u32',
+  /** Place on it, two numbers as bits. */
+  chosen_place: 'vec2u',
+  /** What its light counts for; below 0 where none was to be chosen. */
+  chosen_weight: 'f32',
+} as const;
+
 /** By the flag that brings them: words that no requested AOV needs would cost their memory traffic. */
 const AOVS = {
   AOVS: { aov_state: 'u32', aov_color: 'u32', aov_depth: 'f32' },
@@ -73,7 +83,7 @@ const WITH_AOVS = Object.keys(AOVS) as (keyof typeof AOVS)[];
 
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
 export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
-  const key = `${lightPasses} ${['PATH_STATE', 'CATCHER', 'MEDIA', 'LIGHT_PATHS', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
+  const key = `${lightPasses} ${['PATH_STATE', 'CATCHER', 'MEDIA', 'LIGHT_PATHS', 'LIGHT_REUSE', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
   let layout = layouts.get(key);
   if (!layout) {
     const fields = {
@@ -88,6 +98,7 @@ export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
       ...(flags.MEDIA ? INTERIOR : {}),
       /** See light_chains.wesl. */
       ...(flags.LIGHT_PATHS ? { chain: 'f32' } : {}),
+      ...(flags.LIGHT_REUSE ? CHOSEN : {}),
       ...Object.assign({}, ...WITH_AOVS.map((flag) => (flags[flag] ? AOVS[flag] : {}))),
     });
     const film = filmLightPasses(lightPasses, flags.CATCHER === true);

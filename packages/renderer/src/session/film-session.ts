@@ -132,8 +132,9 @@ export class FilmSession {
    * @param effect What has changed.
    * @param first Number of its first sample; default: the same as before.
    * @param moves Instances that have moved.
+   * @param reuses Whether it reuses light samples of the frame before.
    */
-  restart(effect: EditEffect, first = this.#first, moves?: readonly Move[]): void {
+  restart(effect: EditEffect, first = this.#first, moves?: readonly Move[], reuses = false): void {
     this.#frameDirty = true;
     if (effect === 'keeps') return;
     const { device, integrator } = this.#host;
@@ -141,6 +142,7 @@ export class FilmSession {
     this.#history.restart(effect, this.samples, { camera: this.#host.camera(), width, height }, moves);
     this.#generation++;
     integrator.firstSample = this.#first = first;
+    integrator.reuse?.restart(reuses);
     this.#headCopied = false;
     this.#broken = false;
     this.aovs.restart();
@@ -366,7 +368,8 @@ export class FilmSession {
     if (!this.#frameDirty) return;
     const { integrator, packFrame, camera } = this.#host;
     integrator.writeFrame(packFrame(this.#film));
-    if (integrator.kernels.features.flags.AOV_MOTION)
+    const { AOV_MOTION, LIGHT_REUSE } = integrator.kernels.features.flags;
+    if (AOV_MOTION || LIGHT_REUSE)
       integrator.writeHistory(this.#history.pack(camera(), this.#film.width, this.#film.height));
     this.#frameDirty = false;
   }

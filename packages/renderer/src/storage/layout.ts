@@ -62,6 +62,9 @@ export const batchStruct = struct('Batch', {
   path_count: 'u32',
   /** Number of the film's first sample. */
   first_sample: 'u32',
+  /** Number of the frame whose light samples are kept, and of the one that they were kept of before; 0: none. */
+  reuse: 'u32',
+  reuse_before: 'u32',
 });
 
 /** Which of a batch's samples record AOVs. */
@@ -232,6 +235,8 @@ export const LIGHT_HIDDEN = 64;
 /** The environment, among the ids of lights (`LightIds`), and the first id of others. */
 export const LIGHT_ID_ENVIRONMENT = 0;
 export const LIGHT_ID_FIRST = 1;
+/** The environment, in place of a light record. */
+export const LIGHT_RECORD_ENVIRONMENT = 0xfffffffe;
 /** Kinds of nodes of the light tree, added up. */
 export const LIGHT_NODE_LEAF = 1;
 export const LIGHT_NODE_DISTANT = 2;

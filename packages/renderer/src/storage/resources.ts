@@ -20,6 +20,8 @@ interface Resource {
     | 'texture_2d_array'
     | 'texture_3d'
     | 'unfilterable'
+    | 'uint_texture'
+    | 'storage_texture'
     | 'sampler';
   readonly deps?: readonly WgslModule[];
   /** The struct of its elements, where that depends on the scene. */
@@ -75,6 +77,12 @@ const FILM = {
   guide_points: { type: 'array<vec4f>', space: 'read' },
   light_casters: { type: 'array<vec4f, 17>', space: 'uniform' },
   light_splats: { type: 'array<atomic<u32>>', space: 'read_write' },
+  reservoirs_before: { type: 'texture_2d<u32>', space: 'uint_texture' },
+  reservoirs_surfaces_before: { type: 'texture_2d<u32>', space: 'uint_texture' },
+  reservoirs_visible_before: { type: 'texture_2d<u32>', space: 'uint_texture' },
+  reservoirs_kept: { type: 'texture_storage_2d<rgba32uint, write>', space: 'storage_texture' },
+  reservoirs_surfaces: { type: 'texture_storage_2d<rgba32uint, write>', space: 'storage_texture' },
+  reservoirs_visible: { type: 'texture_storage_2d<r32uint, write>', space: 'storage_texture' },
 } as const satisfies Record<string, Resource>;
 
 /**
@@ -160,7 +168,7 @@ export function bindGroupLayouts(device: GPUDevice, kernel: string, groups: Kern
   return groups.map(({ group, bindings }) =>
     device.createBindGroupLayout({
       label: `glanz ${kernel} ${group}`,
-      entries: bindings.map(({ binding, space, entry = layoutEntry(space) }) => ({
+      entries: bindings.map(({ binding, space, type, entry = layoutEntry(space, type) }) => ({
         binding,
         visibility: GPU_STAGE_COMPUTE,
         ...entry,
@@ -189,7 +197,7 @@ export function createBindGroup(
   return device.createBindGroup({ label: `glanz ${group}`, layout, entries });
 }
 
-function layoutEntry(space: Resource['space']): Omit<GPUBindGroupLayoutEntry, 'binding' | 'visibility'> {
+function layoutEntry(space: Resource['space'], type: string): Omit<GPUBindGroupLayoutEntry, 'binding' | 'visibility'> {
   switch (space) {
     case 'uniform':
       return { buffer: { type: 'uniform' } };
@@ -205,6 +213,10 @@ function layoutEntry(space: Resource['space']): Omit<GPUBindGroupLayoutEntry, 'b
       return { texture: { sampleType: 'float', viewDimension: '3d' } };
     case 'unfilterable':
       return { texture: { sampleType: 'unfilterable-float' } };
+    case 'uint_texture':
+      return { texture: { sampleType: 'uint' } };
+    case 'storage_texture':
+      return { storageTexture: { format: /<(\w+)/.exec(type)?.[1] as GPUTextureFormat } };
     case 'sampler':
       return { sampler: { type: 'filtering' } };
   }

@@ -7,11 +7,14 @@ import { compose, wgslModule } from '@glanz/wgsl';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { environmentSteps } from '../../src/environment/environment';
 import { prepareGeometry } from '../../src/geometry/prepare-geometry';
-import lightEval from '../../src/lights/light_eval.wesl';
+import lightAt from '../../src/lights/reservoirs/light_at.wesl';
+import lightIds from '../../src/lights/reservoirs/light_ids.wesl';
+import lights from '../../src/lights/lights.wesl';
 import lightProfile from '../../src/lights/light_profile.wesl';
 import { energyTextures } from '../../src/materials/energy-textures';
 import energyHost from '../../src/materials/energy.wesl';
 import { materialCases } from '../../src/materials/material-cases';
+import { modulesOf } from '../../src/integrator/modules-of';
 import { resolveOptions, type TracerSettings } from '../../src/option-checks';
 import { kernelFeatures } from '../../src/preparation';
 import { GpuScene } from '../../src/scene/gpu-scene';
@@ -58,7 +61,7 @@ const RESOURCES: readonly ResourceName[] = [
   'energy_sampler',
 ];
 
-/** Of each query: a light sample; the choice that it makes; what that gives by `light_eval`. */
+/** Of each query: a light sample; the choice that it makes; what that gives by `light_at`. */
 const MAIN = /* wgsl */ `
 @group(2) @binding(0) var<storage, read> queries: array<vec4f>;
 @group(2) @binding(1) var<storage, read_write> results: array<vec4f>;
@@ -83,9 +86,10 @@ fn write(at: u32, light: LightSample) {
     choice.u = draws.xy;
   }
   results[at + 2u] = vec4f(f32(choice.id), choice.u, choice.probability);
-  let light = light_eval(choice.id, choice.u, position);
+  let light = light_at(light_of(choice.id), choice.u, position);
+  let probability = light_probability(light_of(choice.id), position, normal);
   write(at + 3u, light);
-  results[at + 5u] = vec4f(f32(light.extended), f32(light.group), 0.0, 0.0);
+  results[at + 5u] = vec4f(f32(light.extended), f32(light.group), probability, 0.0);
 }`;
 
 interface Query {
@@ -137,7 +141,10 @@ class LightHost {
       openpbr,
       energyHost,
       ...(flags.LIGHT_PROFILES ? [lightProfile] : []),
-      lightEval,
+      lights,
+      ...modulesOf(lights, ['environment', 'light-choice']),
+      lightIds,
+      lightAt,
     ]);
     const module = device.createShaderModule({ code: compose([main], { flags }).code });
     const own = { frame: packFrame(camera, SIZE, scene, geometry, options), batch: batchStruct.allocate() };
@@ -208,7 +215,7 @@ function withEmissionTexture(): Scene {
   return scene;
 }
 
-describe('light_eval', () => {
+describe('light_at', () => {
   it.each([
     ['tree', () => allLights()],
     ['power', () => allLights()],
@@ -227,6 +234,8 @@ describe('light_eval', () => {
       expect([...at(results, i, 3)]).toEqual([...at(results, i, 0)]);
       expect([...at(results, i, 4).subarray(0, 3)]).toEqual([...at(results, i, 1).subarray(0, 3)]);
       expect(Math.abs(at(results, i, 4)[3]! * probability! - pdf)).toBeLessThanOrEqual(pdf * 2 ** -22);
+      // The probability is found again.
+      if (pdf > 0) expect(Math.abs(at(results, i, 5)[2]! / probability! - 1)).toBeLessThan(1e-4);
       if (pdf > 0) seen.add(id);
     }
     // Lights of all kinds were among them.

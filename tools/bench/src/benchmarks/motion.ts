@@ -22,7 +22,9 @@ const COMPARED = [29, 59, 89, 119];
 const DEPTH = 6;
 
 /** Ways to show a frame: its samples as they are, with the frames before, and those of another renderer. */
-const WAYS = ['raw', 'temporal', 'three-gpu-pathtracer'] as const;
+const WAYS = ['raw', 'temporal', 'raw-reuse', 'temporal-reuse', 'three-gpu-pathtracer'] as const;
+/** Reusing light samples does not pay in these scenes: see guide/denoising. */
+const DEFAULT_WAYS = 'raw,temporal,three-gpu-pathtracer';
 type Way = (typeof WAYS)[number];
 type OwnWay = Exclude<Way, 'three-gpu-pathtracer'>;
 
@@ -63,7 +65,10 @@ export const benchmark: Benchmark = {
   options: {
     scenes: { type: 'string', help: `of ${Object.keys(MOTION_SCENES).join(',')}; default: all` },
     movements: { type: 'string', help: `of ${Object.keys(MOVEMENTS).join(',')}; default: all` },
-    contestants: { type: 'string', help: `of ${WAYS.join(',')}; the last one in orbits alone; default: all` },
+    contestants: {
+      type: 'string',
+      help: `of ${WAYS.join(',')}; the last one in orbits alone; default ${DEFAULT_WAYS}`,
+    },
     size: { type: 'string', help: 'WIDTHxHEIGHT; default 1920x1080, on software GPUs 160x90' },
     compared: { type: 'string', help: `frames that are compared; default ${COMPARED.join(',')}; "none": times alone` },
     samples: { type: 'string', help: 'of a frame; default 1' },
@@ -103,7 +108,7 @@ function settingsOf({ quick, values }: BenchmarkContext, software: boolean): Set
     restSeconds: Number(values['rest'] ?? 0),
     scenes: listOption(values['scenes'], Object.keys(MOTION_SCENES), 'scene'),
     movements: listOption(values['movements'] ?? (quick ? 'orbit' : undefined), Object.keys(MOVEMENTS), 'movement'),
-    ways: listOption(values['contestants'], WAYS, 'contestant'),
+    ways: listOption(values['contestants'] ?? DEFAULT_WAYS, WAYS, 'contestant'),
     images: values['images'],
     clips: values['clips'],
   };
@@ -201,8 +206,11 @@ async function frames(
   kept: readonly number[],
 ): Promise<Series> {
   const { samples, last, restSeconds, clips } = settings;
-  const tracer = await createTracer(device, product, settings, way === 'raw' ? [] : TEMPORAL_AOVS);
-  const realtime = way === 'raw' ? undefined : await RealtimeIntegrator.create(device, tracer);
+  const isRaw = way.startsWith('raw');
+  const lightReuse = way.endsWith('reuse');
+  const tracer = await createTracer(device, product, settings, isRaw ? [] : TEMPORAL_AOVS);
+  if (isRaw && lightReuse) await tracer.setLightReuse(true);
+  const realtime = isRaw ? undefined : await RealtimeIntegrator.create(device, tracer, { lightReuse });
   const integrator = realtime ?? tracer;
   const images = new Map<number, Float32Array>();
   const milliseconds: number[] = [];
@@ -214,7 +222,7 @@ async function frames(
     await moves.at(tracer, product, frame);
     // Raw frames have other random numbers than those before, as the others have. An edit that changes nothing keeps the
     // film.
-    if (!realtime) tracer.reset({ firstSample: frame * samples });
+    if (!realtime) tracer.reset({ firstSample: frame * samples, lightReuse });
     else if (tracer.samples > 0) tracer.reset();
     const options = { samples, maxSubmitMs: 100, ...(realtime ? { instancesMoved: moves.instances } : {}) };
     for await (const progress of integrator.render(options)) void progress;

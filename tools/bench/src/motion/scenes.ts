@@ -1,9 +1,12 @@
 import { createCornellBox } from '@glanz/models';
+import { GALLERY_MODELS } from '@glanz/models/gallery';
 import { sceneToGlb } from '@glanz/models/gltf';
 import { PRODUCT_DATA, PRODUCT_MODELS, PRODUCT_SCENES, PRODUCT_TEXELS, productFile } from '../denoise/product-scenes';
 import type { ProductScene } from '../denoise/product-scenes';
 import { packedFolder } from '../equal-time/load';
 import type { Task } from '../equal-time/contestant';
+import { fitCamera } from '../products/scenes';
+import type { PerspectiveCamera } from '@glanz/scene';
 
 /** A scene that is rendered from frame to frame. */
 export interface MotionScene {
@@ -33,6 +36,14 @@ export const MOTION_SCENES: Readonly<Record<string, MotionScene>> = {
     load: () => {
       const scene = createCornellBox();
       return Promise.resolve({ scene, camera: scene.cameras[0]! });
+    },
+    file: written,
+  },
+  // A room at night with 74 lights.
+  night: {
+    load: (aspect) => {
+      const scene = GALLERY_MODELS['lamps']!();
+      return Promise.resolve({ scene, camera: fitCamera(scene.cameras[0] as PerspectiveCamera, aspect) });
     },
     file: written,
   },

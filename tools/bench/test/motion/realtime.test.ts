@@ -99,6 +99,28 @@ it('follows edits of a view that does not move, and continues a film that has no
   for (const one of [realtime, tracer, still, darker]) one.destroy();
 });
 
+it('reuses light samples where that is asked for, and leaves the film as it is', async () => {
+  const tracer = await tracerOf();
+  const realtime = await RealtimeIntegrator.create(device, tracer, { lightReuse: true });
+  const images: { first: Float32Array; last?: Float32Array } = { first: await frame(realtime) };
+  for (let i = 1; i <= 4; i++) {
+    await tracer.setCamera(orbited(camera, 0.002 * i));
+    images.last = await frame(realtime);
+  }
+  const still = await tracerOf();
+  await still.setCamera(orbited(camera, 0.008));
+  const reference = await frame(still, 128);
+  expect(error(images.last!, reference)).toBeLessThan(error(images.first, reference));
+  // Samples of the same numbers without reuse are others.
+  const raw = await tracer.read('beauty');
+  still.reset({ firstSample: 5 });
+  expect(await frame(still, 1)).not.toEqual(raw);
+  realtime.rest();
+  still.reset({ firstSample: 0 });
+  expect(await frame(tracer, 4)).toEqual(await frame(still, 4));
+  for (const one of [realtime, tracer, still]) one.destroy();
+});
+
 it('shows the film itself where it is destroyed', async () => {
   const tracer = await tracerOf();
   const realtime = await RealtimeIntegrator.create(device, tracer);
