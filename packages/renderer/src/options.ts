@@ -80,11 +80,12 @@ export interface PathTracerOptions {
    */
   readonly guiding?: number;
   /**
-   * Unbiased: the number of paths per pixel and sample that start at lights, go through smooth glass and mirrors, and end
-   * at the first surface that the camera sees: caustics of small lights, which paths from the camera rarely find. Both
-   * are weighed against each other. 0 (default) off, 0.25 to 1 for scenes with such caustics; 0 to 16. Without effect with
-   * orthographic and panorama cameras, catchers, `backFaceCulling: 'all'`, `clampIndirect`, `regularization`,
-   * `maxBounces` and without `caustics`. Lights without a size start none.
+   * Unbiased: the number of paths per pixel and sample that start at lights, go through smooth glass and mirrors or are
+   * reflected once by a metal with a roughness of at most 0.5, and end at the first surface that the camera sees:
+   * caustics of small lights, which paths from the camera rarely find. Both are weighed against each other. 0 (default)
+   * off, 0.25 to 1 for scenes with such caustics; 0 to 16. Without effect with orthographic and panorama cameras,
+   * catchers, `backFaceCulling: 'all'`, `clampIndirect`, `regularization`, `maxBounces` and without `caustics`. Lights
+   * without a size start some for rough metals alone.
    */
   readonly lightPaths?: number;
   /**

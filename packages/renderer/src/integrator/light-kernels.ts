@@ -2,6 +2,8 @@ import type { WgslModule } from '@glanz/wgsl';
 import lightAreaWeight from '../lights/light_paths/light_area_weight.wesl';
 import lightBegin from '../lights/light_paths/light_begin.wesl';
 import lightChains from '../lights/light_paths/light_chains.wesl';
+import lightPicked from '../lights/light_paths/light_picked.wesl';
+import lightSampleWeight from '../lights/light_paths/light_sample_weight.wesl';
 import lightSplats from '../lights/light_paths/light_splats.wesl';
 import lightStart from '../lights/light_paths/light_start.wesl';
 import lightTrace from '../lights/light_paths/light_trace.wesl';
@@ -50,6 +52,7 @@ const TRACE_CALLED = [
   'random',
   'material-records',
   'instances',
+  'tangent',
   'triangles',
 ];
 
@@ -76,7 +79,9 @@ export function lightKernel(
   });
   switch (name) {
     case 'shade':
-      return [features, extended([lightChains, lightWeights], { more: ['light_casters'] })];
+    // The text that light samples are reused with is that of shade.
+    case 'reservoirs':
+      return [features, extended([lightChains, lightSampleWeight, lightWeights], { more: ['light_casters'] })];
     case 'intersect':
       return [features, features.flags.AREA_LIGHTS ? extended([lightAreaWeight], { more: ['light_casters'] }) : parts];
     case 'resolve':
@@ -86,7 +91,7 @@ export function lightKernel(
     case 'light_start':
       return [
         flagged(START),
-        extended(modulesOf(shade, START_CALLED), {
+        extended([lightPicked, ...modulesOf(shade, START_CALLED)], {
           root: lightStart,
           resources: [...SURFACES, 'lights'],
         }),

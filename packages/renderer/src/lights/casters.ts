@@ -7,6 +7,9 @@ export const CASTERS = 8;
 /** Below this roughness lobes are deltas. */
 const SMOOTH = 0.01;
 
+/** Up to this one light paths are reflected by rough metals: see light_gloss.wesl. */
+const ROUGH = 0.5;
+
 type Sphere = readonly [x: number, y: number, z: number, radius: number];
 
 const spheres = new WeakMap<Float32Array, Sphere>();
@@ -73,21 +76,21 @@ function join(list: Sphere[]): void {
 }
 
 /**
- * The table of light_aim.wesl: spheres around instances that mirror or refract sharply. Which there are decides how
+ * The table of light_aim.wesl: spheres around instances that mirror or refract sharply, and rough metals. Which there are decides how
  * noisy caustics are, not how bright.
  *
  * @param scene What is in it.
  * @param isVisible Whether an instance can be hit.
  * @param parameters Of a material.
  * @param options `isSmooth`: whether rays of opaque surfaces with normals leave from the smooth surface, so that light
- * paths do not go on from there.
+ * paths do not go on from there; `isGlossy`: whether light paths are reflected by rough metals.
  * @returns The table, without the number of light paths, its second value.
  */
 export function castersOf(
   { instances, materials, meshes }: Scene,
   isVisible: (instance: Instance) => boolean,
   parameters: typeof parametersOf,
-  { isSmooth }: { readonly isSmooth: boolean },
+  { isSmooth, isGlossy }: { readonly isSmooth: boolean; readonly isGlossy: boolean },
 ): Float32Array<ArrayBuffer> {
   const chosen = materials.map((material) => {
     const p = parameters(material);
@@ -95,21 +98,32 @@ export function castersOf(
     const textured = Object.keys(material.textures ?? {}).length > 0;
     const clear = p.transmission_weight > 0 && !p.geometry_thin_walled;
     const fits = p.specular_roughness <= SMOOTH && !layered && !textured;
-    return { clear: fits && clear, mirror: fits && p.base_metalness > 0 && p.transmission_weight === 0 };
+    const opaque = p.transmission_weight === 0;
+    const rough = p.specular_roughness > SMOOTH && p.specular_roughness <= ROUGH && p.base_metalness >= 0.5;
+    return {
+      clear: fits && clear,
+      mirror: fits && p.base_metalness > 0 && opaque,
+      glossy: isGlossy && rough && opaque && p.subsurface_weight === 0 && !textured,
+    };
   });
   const list: Sphere[] = [];
   const all: Sphere[] = [];
+  let hasGlossy = false;
   for (const instance of instances) {
     if (!isVisible(instance)) continue;
     const mesh = meshes[instance.mesh] as Mesh;
-    const { clear, mirror } = chosen[instance.material] as (typeof chosen)[number];
+    const { clear, mirror, glossy } = chosen[instance.material] as (typeof chosen)[number];
     const sphere = placed(meshSphere(mesh), instance.transform);
     all.push(sphere);
-    if (sphere[3] > 0 && (clear || (mirror && !(isSmooth && mesh.normals)))) list.push(sphere);
+    if (sphere[3] > 0 && (clear || glossy || (mirror && !(isSmooth && mesh.normals)))) {
+      list.push(sphere);
+      hasGlossy ||= glossy;
+    }
     if (list.length > CASTERS) join(list);
   }
   const table = new Float32Array(4 * (2 * CASTERS + 1));
   table[0] = list.length;
+  table[2] = Number(hasGlossy);
   const total = list.reduce((sum, sphere) => sum + sphere[3] ** 2, 0);
   let below = 0;
   list.forEach((sphere, i) => {

@@ -96,8 +96,8 @@ export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
       ...(flags.PATH_STATE ? STATE : {}),
       ...(flags.CATCHER ? { role: 'u32' } : {}),
       ...(flags.MEDIA ? INTERIOR : {}),
-      /** See light_chains.wesl. */
-      ...(flags.LIGHT_PATHS ? { chain: 'f32' } : {}),
+      /** See light_chains.wesl; light paths that a rough surface has reflected keep its hit, and their light. */
+      ...(flags.LIGHT_PATHS ? { chain: 'f32', gloss: 'vec4u', gloss_light: 'vec4f' } : {}),
       ...(flags.LIGHT_REUSE ? CHOSEN : {}),
       ...Object.assign({}, ...WITH_AOVS.map((flag) => (flags[flag] ? AOVS[flag] : {}))),
     });

@@ -76,7 +76,7 @@ export const RENDER_OPTION_TEXTS: Readonly<Record<RenderOptionName, RenderOption
     biased: true,
   },
   lightPaths: {
-    doc: 'Number of paths per pixel and sample that start at lights and go through smooth glass and mirrors; 0 is off.',
+    doc: 'Number of paths per pixel and sample that start at lights and go by way of smooth glass and metals; 0 is off.',
     softRange: [0, 1],
   },
   guiding: {

@@ -53,6 +53,7 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
   let table: ReturnType<typeof castersOf> | undefined;
   /** What the table was made from. */
   let changes = 0;
+  let wasGlossy: boolean | undefined;
   const buffers: Readonly<Record<string, () => GPUBuffer>> = {
     light_casters: () => (casters ??= memory.buffer('light casters', 16 * (2 * CASTERS + 1), UNIFORM)),
     light_splats: () => (splats ??= memory.buffer('light paths', SPLAT_BYTES * main.pixels, STORAGE)),
@@ -86,12 +87,17 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
     writeFrame(data) {
       frame = data;
       count = Math.min(0xffffff, Math.max(1, Math.round(options.lightPaths * main.pixels)));
+      // They do not know how measured lights shine, and not what light samples pass.
+      const isGlossy =
+        !main.kernels.features.flags.NULL_SURFACES && !scene.lights.some(({ type }) => type === 'profile');
       // A look at each instance: not for each move of the camera.
-      if (!table || changes !== gpuScene.changes)
+      if (!table || changes !== gpuScene.changes || wasGlossy !== isGlossy)
         table = castersOf(scene, (instance) => isVisible(scene, instance), parameters, {
           isSmooth: options.shadowTerminator === 'smooth',
+          isGlossy,
         });
       ({ changes } = gpuScene);
+      wasGlossy = isGlossy;
       table[1] = count;
       memory.write(buffer('light_casters') as GPUBuffer, table);
       if (table[0] === 0) count = 0;
