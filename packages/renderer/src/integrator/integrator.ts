@@ -50,6 +50,8 @@ export interface LightReuse {
   begin(rebind: () => void): readonly [now: number, before: number];
   /** What kernels bind by this name, if it is theirs. */
   resource(name: string): GPUTextureView | undefined;
+  /** The GPU has refused something, perhaps these textures: the next film makes others. */
+  discard(): void;
 }
 
 /** How long paths may become. */
@@ -180,6 +182,7 @@ export class Integrator {
     for (const name of group ? [group] : (Object.keys(this.#groups) as BindGroupName[])) this.#groups[name].clear();
     this.#aovs = undefined;
     this.lights?.rebind(group);
+    if (!group) this.reuse?.discard();
   }
 
   /** From now on paths go to this film. */

@@ -76,8 +76,8 @@ function join(list: Sphere[]): void {
 }
 
 /**
- * The table of light_aim.wesl: spheres around instances that mirror or refract sharply, and rough metals. Which there are decides how
- * noisy caustics are, not how bright.
+ * The table of light_aim.wesl: spheres around instances that mirror or refract sharply, and rough metals. Which there are
+ * decides how noisy caustics are, not how bright.
  *
  * @param scene What is in it.
  * @param isVisible Whether an instance can be hit.

@@ -49,6 +49,10 @@ export function lightReuse(memory: GpuMemory, film: () => FrameShape): LightReus
       BYTES[format] * width * height,
     );
   const free = (frame: FrameTextures | undefined) => frame?.textures.forEach((texture) => memory.release(texture));
+  const discard = () => {
+    frames.forEach(free);
+    frames = [undefined, undefined];
+  };
   const fitting = (frame: FrameTextures | undefined): FrameTextures => {
     const { width, height, lights } = film();
     if (frame?.width === width && frame.height === height) return { ...frame, lights };
@@ -57,12 +61,12 @@ export function lightReuse(memory: GpuMemory, film: () => FrameShape): LightReus
     const views = Object.fromEntries(KEPT.map((name, i) => [name, (textures[i] as GPUTexture).createView()]));
     return { width, height, lights, textures, views: views as FrameTextures['views'] };
   };
-  /** What kernels bind that keep nothing. */
-  const empty = new Map<string, GPUTextureView>();
-  const nothing = (format: keyof typeof BYTES) => {
-    const view = empty.get(format) ?? texture('no light samples', 1, 1, format).createView();
-    empty.set(format, view);
-    return view;
+  /** What kernels bind that keep nothing: a texture each, since none may be written twice. */
+  const empty = new Map<string, GPUTexture>();
+  const nothing = (name: string, format: keyof typeof BYTES) => {
+    const made = empty.get(name) ?? texture(`no light samples: ${name}`, 1, 1, format);
+    empty.set(name, made);
+    return made.createView();
   };
   return {
     restart(reuses) {
@@ -74,8 +78,7 @@ export function lightReuse(memory: GpuMemory, film: () => FrameShape): LightReus
       if (!on) {
         begun = true;
         if (frames[0]) {
-          frames.forEach(free);
-          frames = [undefined, undefined];
+          discard();
           rebind();
         }
         return [0, 0];
@@ -96,10 +99,15 @@ export function lightReuse(memory: GpuMemory, film: () => FrameShape): LightReus
       const [now, old] = frames;
       for (const kept of KEPT) {
         const [before, format] = TEXTURES[kept];
-        if (name === kept) return now?.views[kept] ?? nothing(format);
-        if (name === before) return old?.views[kept] ?? nothing(format);
+        if (name === kept) return now?.views[kept] ?? nothing(name, format);
+        if (name === before) return old?.views[kept] ?? nothing(name, format);
       }
       return undefined;
+    },
+    discard() {
+      discard();
+      empty.forEach((each) => memory.release(each));
+      empty.clear();
     },
   };
 }

@@ -132,6 +132,37 @@ describe('an edit that the GPU refuses', () => {
   });
 });
 
+it('frames that reuse light samples reject where there is no memory for these, and come when there is', async () => {
+  const make = async () => {
+    const tracer = await PathTracer.create(device, stage(), options);
+    await tracer.setLightReuse(true);
+    return tracer;
+  };
+  const frame = (tracer: PathTracer, firstSample: number) => {
+    tracer.reset({ firstSample, lightReuse: true });
+    return image(tracer, 1);
+  };
+  const plain = await make();
+  recorder.clear();
+  await frame(plain, 1);
+  const points = recorder.points.filter(({ name }) => /^createTexture "glanz light samples/.test(name));
+  expect(points.length).toBeGreaterThan(5);
+  const expected = await frame(plain, 2);
+  plain.destroy();
+  for (const { name } of points.slice(0, 4)) {
+    const tracer = await make();
+    recorder.clear({ point: name, fault: 'out-of-memory' });
+    const error = await frame(tracer, 1).catch((thrown: Error & { code?: string }) => thrown);
+    expect(recorder.struck, name).toBeTruthy();
+    expect(error, name).toMatchObject({ code: 'renderer/out-of-memory' });
+    await frame(tracer, 1);
+    expect(await frame(tracer, 2), name).toEqual(expected);
+    tracer.destroy();
+  }
+  expect(recorder.uncaptured).toEqual([]);
+  expect(recorder.live.size).toBe(0);
+});
+
 it('layers that are made on demand reject, and come when they are read again', async () => {
   const tracer = await PathTracer.create(device, stage(), options);
   const beauty = await image(tracer);
