@@ -124,8 +124,9 @@ export class Scheduler {
       if (Math.min(possible, safe) > this.#paths)
         this.#paths = Math.min(this.#capacity, Math.floor(Math.min(possible, safe)), 4 * this.#paths);
     } else if (!cost.isFixedKnown) {
-      // One larger batch tells how much of the time was not for its paths.
-      this.#paths = Math.min(this.#capacity, 2 * this.#paths);
+      // One larger batch tells how much of the time was not for its paths. Larger than this one: a preview of few pixels
+      // has smaller batches than are allowed, however many there are.
+      this.#paths = Math.min(this.#capacity, Math.max(this.#paths, 2 * paths));
     }
   }
 }

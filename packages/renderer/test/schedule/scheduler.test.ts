@@ -122,4 +122,18 @@ describe('Scheduler', () => {
     const { batches } = simulate(1 << 16, 1 << 20, 30, 200, () => 0.5);
     expect(Math.max(...batches.map((b) => b.pixelCount * b.sampleCount))).toBe(1 << 20);
   });
+
+  it('learns nothing about large batches from a preview of few pixels', () => {
+    // Frames of 80 × 45 pixels that take about their budget, each a film of its own; then the whole image.
+    const speed = 3600 / 34;
+    let paths: number | undefined;
+    for (let frame = 0; frame < 40; frame++) {
+      const scheduler = new Scheduler({ pixels: 3600, capacity: 1 << 20, budgetMs: 30 }, paths);
+      scheduler.measured(scheduler.next(1) as Batch, 3600 / speed);
+      paths = scheduler.paths;
+    }
+    const whole = new Scheduler({ pixels: 640 * 360, capacity: 1 << 20, budgetMs: 16 }, paths);
+    const { pixelCount, sampleCount } = whole.next(100) as Batch;
+    expect((pixelCount * sampleCount) / speed).toBeLessThan(200);
+  });
 });
