@@ -242,6 +242,7 @@ export class PathTracer extends TracerEdits {
    * the GPU's buffers do not hold them.
    *
    * @returns When the kernels are there.
+   * @throws {RenderError} `renderer/destroyed`
    * @throws {DeviceError} `renderer/out-of-memory`, `renderer/gpu-error`, `renderer/device-lost`
    */
   async setLightReuse(on: boolean): Promise<void> {
