@@ -2,6 +2,7 @@ import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import type { Light, Material, PerspectiveCamera, Scene } from '@glanz/scene';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 import { PathTracer, type PathTracerOptions } from '../../src/index';
+import { filmStatistics, finishedFilm } from '../film-statistics';
 import { addQuad, addSphere, createScene, lambert } from '../scenes';
 
 let device: GPUDevice;
@@ -106,30 +107,13 @@ async function tracerOf(scene: Scene, options: Partial<PathTracerOptions>): Prom
   return PathTracer.create(device, scene, { width: SIZE, height: SIZE, camera: below, maxDepth: 4, ...options });
 }
 
-async function film(scene: Scene, samples: number, options: Partial<PathTracerOptions>): Promise<Float32Array> {
-  const tracer = await tracerOf(scene, options);
-  for await (const _ of tracer.render({ samples }));
-  const image = await tracer.read('beauty');
-  expect(tracer.statistics.badSamples).toBe(0);
-  tracer.destroy();
-  return image;
-}
+const film = async (scene: Scene, samples: number, options: Partial<PathTracerOptions>) =>
+  finishedFilm(await tracerOf(scene, options), samples);
 
-const mean = (values: readonly number[]) => values.reduce((a, b) => a + b, 0) / values.length;
-const variance = (values: readonly number[]) =>
-  values.reduce((sum, value) => sum + (value - mean(values)) ** 2, 0) / (values.length - 1);
-
-const SEEDS = 8;
 const SAMPLES = 32;
 
-/** The image's mean over films of several seeds, its standard error, and the mean variance of a film's pixels. */
-async function measure(scene: Scene, options: Partial<PathTracerOptions>, samples = SAMPLES) {
-  const images: Float32Array[] = [];
-  for (let seed = 1; seed <= SEEDS; seed++) images.push(await film(scene, samples, { ...options, seed }));
-  const totals = images.map((image) => mean([...image].filter((_, i) => i % 4 < 3)));
-  const pixels = Array.from({ length: SIZE * SIZE }, (_, i) => images.map((image) => image[4 * i]!));
-  return { mean: mean(totals), error: Math.sqrt(variance(totals) / SEEDS), noise: mean(pixels.map(variance)) };
-}
+const measure = (scene: Scene, options: Partial<PathTracerOptions>, samples = SAMPLES) =>
+  filmStatistics((seed) => film(scene, samples, { ...options, seed }));
 
 describe('PathTracer with light paths', () => {
   const colored = {
