@@ -459,6 +459,50 @@ test.describe('live', () => {
       .toBeGreaterThan(0.8 * red.leading.red);
     expect(complaints).toEqual([]);
   });
+
+  test('views that move are compared side by side, as sampled and filtered, with one camera', async ({ page }) => {
+    const complaints = watchPage(page);
+    await page.setViewportSize({ width: 380, height: 800 });
+    await page.goto(`${origin}/guide/denoising`);
+    await takenOver(page);
+    const live = page.locator('.live-moving');
+    await expect(live).toHaveAttribute('data-stage', 'idle');
+    await live.getByRole('button', { name: 'Compare here' }).click();
+    await expect(live).toHaveAttribute('data-stage', /render|error/, { timeout: 120_000 });
+    await expect(live.getByRole('alert')).toHaveCount(0);
+    const sides = live.locator('.live-moving-side');
+    await expect(sides).toHaveCount(2);
+    const before = await Promise.all([0, 1].map((i) => photograph(sides.nth(i).locator('canvas'))));
+    // Whichever of both is moved, the other follows, and only one is filtered.
+    for (const moved of [0, 1]) {
+      await live.evaluate((figure) => {
+        const seen = ((figure as HTMLElement & { seen?: Set<string> }).seen = new Set<string>());
+        new MutationObserver(() => {
+          for (const side of figure.querySelectorAll<HTMLElement>('.live-moving-side')) {
+            const index = [...side.parentElement!.children].indexOf(side);
+            if (side.dataset['moving'] === 'true') seen.add(`${index} ${side.dataset['denoised']}`);
+          }
+        }).observe(figure, { attributes: true, subtree: true });
+      });
+      const canvas = sides.nth(moved).locator('canvas');
+      await canvas.focus();
+      for (let i = 0; i < 10; i++) await canvas.press(moved === 0 ? 'ArrowLeft' : 'ArrowUp');
+      const seen = () => live.evaluate((figure) => [...(figure as HTMLElement & { seen: Set<string> }).seen].sort());
+      await expect.poll(seen, { timeout: 60_000 }).toEqual(expect.arrayContaining(['0 false', '1 true']));
+      expect(await seen()).not.toContain('0 true');
+      for (const i of [0, 1]) await expect(sides.nth(i)).toHaveAttribute('data-moving', 'false', { timeout: 60_000 });
+    }
+    // At rest they are one image but for the last movement's remains, and another one than before.
+    for (const i of [0, 1])
+      await expect
+        .poll(async () => Number(await sides.nth(i).getAttribute('data-samples')), { timeout: 90_000 })
+        .toBeGreaterThan(3);
+    const after = await Promise.all([0, 1].map((i) => photograph(sides.nth(i).locator('canvas'))));
+    const green = (one: (typeof after)[number]) => one.leading.green;
+    expect(Math.abs(green(after[0]!) - green(after[1]!))).toBeLessThan(0.02);
+    expect(Math.abs(green(after[0]!) - green(before[0]!))).toBeGreaterThan(0.01);
+    expect(complaints).toEqual([]);
+  });
 });
 
 test("the rasteriser's ball is drawn as the page opens", async ({ page }) => {
