@@ -2,7 +2,7 @@
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, compact shapes, arrays beyond a
 // binding, animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection, thin
-// films, meshes that are replaced, light paths, light samples that are reused), what filters moving frames, and what
+// films, meshes that are replaced, light paths, light samples that are reused or bent by glass), what filters moving frames, and what
 // saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
@@ -45,6 +45,7 @@ const LATER = {
   './guide-kernels': 'glanz-viewer.guide-kernels.min.js',
   './soft-shadows': 'glanz-viewer.soft-shadows.min.js',
   './rare-kernels': 'glanz-viewer.rare-kernels.min.js',
+  './refracted-light': 'glanz-viewer.refracted-light.min.js',
   './light-kernels': 'glanz-viewer.light-kernels.min.js',
   './session/light-paths': 'glanz-viewer.light-paths.min.js',
   './reuse-kernels': 'glanz-viewer.reuse-kernels.min.js',
@@ -78,6 +79,7 @@ const SOURCES = {
   './guide-kernels': '../renderer/src/integrator/guide-kernels',
   './soft-shadows': '../renderer/src/integrator/soft-shadows',
   './rare-kernels': '../renderer/src/integrator/rare-kernels',
+  './refracted-light': '../renderer/src/integrator/refracted-light',
   './light-kernels': '../renderer/src/integrator/light-kernels',
   './session/light-paths': '../renderer/src/session/light-paths',
   './reuse-kernels': '../renderer/src/integrator/reuse-kernels',

@@ -95,20 +95,26 @@ export function kernelFeatures(features: KernelFeatures, camera: Camera, options
     ...biasedFlags(options),
     ...aovFlags(options.aovs),
   };
-  const { NEXT_EVENT, CATCHER, CULLING_ALL, PATH_STATE, CLAMP_INDIRECT } = flags;
+  const { NEXT_EVENT, CATCHER, CULLING_ALL, PATH_STATE, CLAMP_INDIRECT, OPACITY, REFRACTED_LIGHT } = flags;
+  // Light paths know nothing of these.
+  const LIGHT_PATHS =
+    options.lightPaths > 0 &&
+    NEXT_EVENT === true &&
+    !(CATCHER || CULLING_ALL || PATH_STATE || CLAMP_INDIRECT) &&
+    camera.type === 'perspective';
+  const GUIDE = options.guiding > 0 || flags.PANES === true;
+  // Whether such a sample is found must depend on nothing but its two ends.
+  const refracts = REFRACTED_LIGHT === true && NEXT_EVENT === true && !(OPACITY || PATH_STATE || LIGHT_PATHS || GUIDE);
   return {
     ...features,
     flags: {
       ...flags,
-      // Light paths know nothing of these.
-      LIGHT_PATHS:
-        options.lightPaths > 0 &&
-        NEXT_EVENT === true &&
-        !(CATCHER || CULLING_ALL || PATH_STATE || CLAMP_INDIRECT) &&
-        camera.type === 'perspective',
+      LIGHT_PATHS,
       LIGHT_CANDIDATES: options.lightCandidates > 1,
       LIGHT_REUSE: options.lightReuse === true && NEXT_EVENT === true && !CATCHER && !features.pages,
-      GUIDE: options.guiding > 0 || features.flags.PANES === true,
+      GUIDE,
+      REFRACTED_LIGHT: refracts,
+      AREA_LIGHT_WEIGHTS: LIGHT_PATHS || refracts,
       SHADOW_SOFTNESS: features.flags.CATCHER === true && options.shadowSoftness > 0,
     },
   };

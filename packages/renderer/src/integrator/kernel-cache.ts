@@ -10,6 +10,7 @@ import {
   type KernelName,
   type KernelParts,
 } from './pipelines';
+import intersect from './intersect.wesl';
 import shade from './shade.wesl';
 
 /** The kernels that a scene's main loop needs, compiled for its features. */
@@ -106,8 +107,9 @@ export class KernelCache {
     if (name === 'noise' || name === 'relight' || name === 'variance' || name === 'aov' || name === 'aov_ids')
       parts = { root: (await loadPart('film-kernels', import('./film-kernels'))).FILM_KERNELS[name] };
     const { GUIDE, LIGHT_PATHS, LIGHT_REUSE, DISPERSION, LIGHT_PROFILES } = features.flags;
-    const { OPENPBR_LOBES, OPENPBR_THIN_FILM, DELTA_TRANSMISSION } = features.flags;
-    const scatters = /shade|trace|reserv/.test(name);
+    const { OPENPBR_LOBES, OPENPBR_THIN_FILM, DELTA_TRANSMISSION, REFRACTED_LIGHT } = features.flags;
+    const refracts = REFRACTED_LIGHT && name === 'intersect';
+    const scatters = refracts || /shade|trace|reserv/.test(name);
     if (scatters && GUIDE) parts = (await loadPart('guide-kernels', import('./guide-kernels'))).GUIDED_SHADE;
     if (scatters && (DISPERSION || LIGHT_PROFILES))
       parts = (await loadPart('rare-kernels', import('./rare-kernels'))).rareKernel(name, features.flags, parts);
@@ -138,6 +140,8 @@ export class KernelCache {
         parts,
         shade,
       );
+    if (refracts)
+      parts = (await loadPart('refracted-light', import('./refracted-light'))).refracted(parts, [shade, intersect]);
     const { compact, pages } = features;
     if (compact) parts = (await loadPart('compact-kernels', import('./compact-kernels'))).compactKernel(parts);
     if (pages)

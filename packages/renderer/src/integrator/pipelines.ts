@@ -143,6 +143,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
     'beauty',
     ...(flags.LIGHT_GROUPS ? (['light_groups'] as const) : []),
   ];
+  const lit: ResourceName[] = ['attributes', 'lights', 'environment', 'environment_table', ...energy];
   const scene: ResourceName[] = ['triangles', 'instances', 'attributes', 'materials'];
   switch (name) {
     case 'generate':
@@ -166,6 +167,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           ...culling,
           ...(flags.MEDIA ? (['materials'] as const) : []),
           ...walking,
+          ...(flags.REFRACTED_LIGHT ? lit : []),
         ]),
       ];
       return {
@@ -176,9 +178,10 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           flags.AREA_LIGHTS && areaLightGathering,
           ...(flags.MEDIA ? interiors : []),
           flags.SCATTERING && openpbrPhase,
+          ...(flags.REFRACTED_LIGHT ? [lights, ...surfaces] : []),
         ],
         resources: [...resources, 'paths', 'queues', 'nodes', 'triangles', 'instances'],
-        textures: flags.OPACITY === true,
+        textures: flags.OPACITY === true || flags.REFRACTED_LIGHT === true,
       };
     }
     case 'connect': {
@@ -221,10 +224,7 @@ function kernelText(name: KernelName, features: KernelFeatures): KernelText {
           'queues',
           'shadows',
           ...scene,
-          'lights',
-          'environment',
-          'environment_table',
-          ...energy,
+          ...lit,
           ...recording,
           ...(flags.GUIDE ? (['guide'] as const) : []),
         ],

@@ -48,10 +48,14 @@ export function transmitsByDelta(material: Material): boolean {
   );
 }
 
+/** Whether light samples reach what scatters inside, through a smooth surface: see `refracted_way.wesl`. */
+function refractsLight(material: Material): boolean {
+  const p = parametersOf(material);
+  return scatters(material) && p.transmission_weight === 1 && p.specular_roughness <= 0.005 && p.specular_ior !== 1;
+}
+
 /** The flags of the kernels that depend on the interiors of a scene's materials. */
-export function interiorFlags(
-  materials: readonly Material[],
-): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH' | 'DISPERSION' | 'DELTA_TRANSMISSION', boolean> {
+export function interiorFlags(materials: readonly Material[]): Record<string, boolean> {
   const interiors = materials.filter(hasInterior);
   const scattering = interiors.some(scatters);
   const priorities = new Set(interiors.map((material) => material.dielectric_priority ?? 0));
@@ -64,5 +68,6 @@ export function interiorFlags(
     NULL_SURFACES: nothing,
     PATH_DEPTH: scattering || nothing,
     DISPERSION: interiors.some(isDispersive),
+    REFRACTED_LIGHT: interiors.some(refractsLight),
   };
 }

@@ -83,7 +83,7 @@ const WITH_AOVS = Object.keys(AOVS) as (keyof typeof AOVS)[];
 
 /** The layout of paths for a scene. Kernels touch the light of a path through its functions only. */
 export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
-  const key = `${lightPasses} ${['PATH_STATE', 'CATCHER', 'MEDIA', 'LIGHT_PATHS', 'LIGHT_REUSE', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
+  const key = `${lightPasses} ${['PATH_STATE', 'CATCHER', 'MEDIA', 'LIGHT_PATHS', 'LIGHT_REUSE', 'REFRACTED_LIGHT', ...WITH_AOVS].map((flag) => flags[flag] === true).join()}`;
   let layout = layouts.get(key);
   if (!layout) {
     const fields = {
@@ -99,6 +99,8 @@ export function pathLayout({ lightPasses, flags }: PathShape): PathLayout {
       /** See light_chains.wesl; light paths that a rough surface has reflected keep its hit, and their light. */
       ...(flags.LIGHT_PATHS ? { chain: 'f32', gloss: 'vec4u', gloss_light: 'vec4f' } : {}),
       ...(flags.LIGHT_REUSE ? CHOSEN : {}),
+      /** See refracted_light.wesl. */
+      ...(flags.REFRACTED_LIGHT ? { scattered: 'vec4f', refracted: 'f32' } : {}),
       ...Object.assign({}, ...WITH_AOVS.map((flag) => (flags[flag] ? AOVS[flag] : {}))),
     });
     const film = filmLightPasses(lightPasses, flags.CATCHER === true);

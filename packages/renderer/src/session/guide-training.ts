@@ -72,7 +72,10 @@ export async function trainGuide(source: GuideSource, tools: GuideTools): Promis
   const [Paths, Memory, isVisible, pack, parameters, read, verified] = tools;
   const { device, cache, scene, geometry, gpuScene, camera, options, signal } = source;
   // Training paths do not begin at the camera.
-  const features = { ...source.features, flags: { ...source.features.flags, LIGHT_PATHS: false } };
+  const features = {
+    ...source.features,
+    flags: { ...source.features.flags, LIGHT_PATHS: false, AREA_LIGHT_WEIGHTS: false },
+  };
   const bins = (options.guiding * 1e6) / GUIDE_BINS;
   const leaves = 2 ** Math.floor(Math.log2(Math.min(MAX_LEAVES, Math.max(1, bins / MIN_SAMPLES))));
   // Even and odd ones: equally many.

@@ -129,6 +129,12 @@ const MATERIALS: readonly HashCase[] = [
     transmission_scatter: [0.9, 0.8, 0.7],
     transmission_color: [0.9, 0.9, 0.8],
   }),
+  material('milk behind smooth glass', {
+    ...glass,
+    specular_roughness: 0,
+    transmission_depth: 0.5,
+    transmission_scatter: [0.9, 0.8, 0.7],
+  }),
   material('fog', {
     transmission_weight: 1,
     specular_ior: 1,
