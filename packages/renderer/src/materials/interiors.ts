@@ -49,7 +49,7 @@ export function transmitsByDelta(material: Material): boolean {
 }
 
 /** Whether light samples reach what scatters inside, through a smooth surface: see `refracted_way.wesl`. */
-function refractsLight(material: Material): boolean {
+export function refractsLight(material: Material): boolean {
   const p = parametersOf(material);
   return scatters(material) && p.transmission_weight === 1 && p.specular_roughness <= 0.005 && p.specular_ior !== 1;
 }
@@ -68,6 +68,5 @@ export function interiorFlags(materials: readonly Material[]): Record<string, bo
     NULL_SURFACES: nothing,
     PATH_DEPTH: scattering || nothing,
     DISPERSION: interiors.some(isDispersive),
-    REFRACTED_LIGHT: interiors.some(refractsLight),
   };
 }

@@ -5,6 +5,7 @@ import type { BackFaceCulling, LightGroupMode, Sampler } from '../options';
 import { isOneSided } from '../geometry/culling';
 import { missingMeshes } from '../geometry/prepare-geometry';
 import { isShown } from '../geometry/placement';
+import { hasFlatInterfaces } from '../materials/flat-interfaces';
 import { interiorFlags } from '../materials/interiors';
 import { lightGroupTable } from '../lights/light-groups';
 import { hasSize } from '../lights/light-records';
@@ -112,6 +113,7 @@ export function sceneFeatures(scene: Scene, choices: SceneChoices, facts: SceneF
       NEXT_EVENT: lights || environmentSampled,
       PANES: (choices.panes?.length ?? 0) > 0 && environmentSampled,
       ...interiorFlags(scene.materials),
+      REFRACTED_LIGHT: hasFlatInterfaces(scene),
       TERMINATOR_LIFT:
         choices.shadowTerminator === 'smooth' && scene.meshes.some(({ normals }) => normals !== undefined),
       SOBOL: choices.sampler !== 'independent',

@@ -139,6 +139,8 @@ describe('light samples for media behind smooth glass', () => {
     const smooth = rectangle();
     smooth.instances.pop();
     addSphere(smooth, 0.5, [0, 0, 0], milk(), 16);
+    // Out of sight; where most of the area is curved, there would be no light samples at all.
+    addBox(smooth, [3, 3, -3], [6, 6, 0], milk());
     await expectSame(smooth, 0.3, {}, samplesOf(256, 4));
     const nested = rectangle();
     addBox(nested, [-0.2, -0.2, -0.3], [0.2, 0.2, 0.3], milk(0, 1, { specular_ior: 1.5 }));

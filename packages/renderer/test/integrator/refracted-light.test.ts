@@ -1,34 +1,11 @@
 import { readdirSync, readFileSync } from 'node:fs';
-import type { Material } from '@glanz/scene';
 import { expect, it } from 'vitest';
 import { kernelSource } from '../../src/integrator/pipelines';
-import { interiorFlags } from '../../src/materials/interiors';
 import { MESH_NORMALS } from '../../src/storage/layout';
 
 it('its shader knows where a mesh has its normals', () => {
   const file = new URL('../../src/lights/refracted/refracted_way.wesl', import.meta.url);
   expect(readFileSync(file, 'utf8')).toContain(`const REFRACTED_NORMALS = ${MESH_NORMALS}u;`);
-});
-
-const glass = (parameters: Material['parameters']): Material => ({
-  name: 'glass',
-  parameters: {
-    transmission_weight: 1,
-    specular_roughness: 0,
-    transmission_depth: 1,
-    transmission_scatter: [0.5, 0.5, 0.5],
-    ...parameters,
-  },
-});
-
-const bends = (parameters: Material['parameters']) => interiorFlags([glass(parameters)])['REFRACTED_LIGHT'];
-
-it('light samples are bent where something scatters behind smooth glass', () => {
-  expect(bends({})).toBe(true);
-  expect(bends({ specular_roughness: 0.1 })).toBe(false);
-  expect(bends({ transmission_scatter: [0, 0, 0] })).toBe(false);
-  expect(bends({ specular_ior: 1 })).toBe(false);
-  expect(bends({ geometry_thin_walled: true })).toBe(false);
 });
 
 it('kernels of other scenes have no text for it', () => {
