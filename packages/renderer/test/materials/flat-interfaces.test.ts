@@ -46,6 +46,16 @@ describe('hasFlatInterfaces', () => {
     expect(hasFlatInterfaces(small)).toBe(false);
   });
 
+  it('tells flat from smooth by a part of the triangles of large meshes', () => {
+    const scene = createScene();
+    addSphere(scene, 0.5, [0, 0, 0], milk, 240);
+    expect(scene.meshes[0]!.indices.length / 3).toBeGreaterThan(30_000);
+    expect(hasFlatInterfaces(scene)).toBe(false);
+    const { name, positions, indices } = scene.meshes[0]!;
+    scene.meshes[0] = { name: name!, positions, indices };
+    expect(hasFlatInterfaces(scene)).toBe(true);
+  });
+
   it('takes normals that are the faces’ own for flat, and others for smooth', () => {
     expect(hasFlatInterfaces(rounded(box()))).toBe(false);
     const scene = box();
