@@ -1,5 +1,6 @@
 import { checkScene, createScene, type Camera } from '@glanz/scene';
 import { RenderError } from '../errors';
+import { cross } from '../vector';
 
 /** The camera's part of the frame uniforms. */
 export interface CameraUniforms {
@@ -42,12 +43,6 @@ function axis(transform: ArrayLike<number>, column: number): number[] {
     );
   return v.map((x) => x / length);
 }
-
-const cross = (a: readonly number[], b: readonly number[]) => [
-  (a[1] as number) * (b[2] as number) - (a[2] as number) * (b[1] as number),
-  (a[2] as number) * (b[0] as number) - (a[0] as number) * (b[2] as number),
-  (a[0] as number) * (b[1] as number) - (a[1] as number) * (b[0] as number),
-];
 
 /**
  * Packs a camera for a film of `width` × `height` pixels. The film keeps the vertical field of view.

@@ -11,6 +11,7 @@ import {
   lightStruct,
   NONE,
 } from '../storage/layout';
+import { cross, type Vector } from '../vector';
 import type { ProfileGrid } from './light-profile';
 import type { TreeLights } from './light-bounds';
 
@@ -21,17 +22,10 @@ export const luminance = (c: ArrayLike<number>): number =>
 /** Where a field of a light record lies, in words. */
 export const wordOf = (field: Parameters<typeof lightStruct.offsetOf>[0]): number => lightStruct.offsetOf(field) / 4;
 
-type Vector = readonly [number, number, number];
-
 const unit = (v: Vector): Vector => {
   const length = Math.hypot(...v);
   return [v[0] / length, v[1] / length, v[2] / length];
 };
-const cross = (a: Vector, b: Vector): Vector => [
-  a[1] * b[2] - a[2] * b[1],
-  a[2] * b[0] - a[0] * b[2],
-  a[0] * b[1] - a[1] * b[0],
-];
 const scaled = (v: Vector, factor: number): Vector => [v[0] * factor, v[1] * factor, v[2] * factor];
 
 /** Whether a ray can meet the light. */

@@ -139,7 +139,7 @@ describe('light samples for media behind smooth glass', () => {
     const smooth = rectangle();
     smooth.instances.pop();
     addSphere(smooth, 0.5, [0, 0, 0], milk(), 16);
-    // Out of sight; where most of the area is curved, there would be no light samples at all.
+    // Out of sight; where all shapes are curved, there would be no light samples at all.
     addBox(smooth, [3, 3, -3], [6, 6, 0], milk());
     await expectSame(smooth, 0.3, {}, samplesOf(256, 4));
     const nested = rectangle();
