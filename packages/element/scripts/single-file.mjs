@@ -2,8 +2,8 @@
 // workers run the same file, so that nothing else is fetched for a plain .glb, and each serves what its name says. What
 // only some pages need (OBJ and STL, HDR and EXR, meshopt, Draco, KTX2, large meshes, compact shapes, arrays beyond a
 // binding, animations, a ground, guiding, noise targets, textures beyond a budget, haze and retroreflection, thin
-// films, meshes that are replaced, light paths, light samples that are reused or bent by glass), what filters moving frames, and what
-// saves images, lies beside it and is fetched by import() when it is needed.
+// films, meshes that are replaced, light paths, light samples that are reused or bent by glass), what filters moving
+// frames, and what saves images, lies beside it and is fetched by import() when it is needed.
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { build, transformSync } from 'esbuild';

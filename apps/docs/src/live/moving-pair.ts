@@ -17,6 +17,7 @@ export interface MovingImage {
   readonly samples: number;
 }
 
+/** What the pair reports to its page, and how it ends. */
 export interface MovingPairOptions {
   /** `index`: of the canvas. */
   readonly onImage: (index: number, image: MovingImage) => void;
@@ -55,7 +56,7 @@ export class MovingPair {
 
   /** @throws what `Viewer.load` throws */
   async load(): Promise<void> {
-    // One after the other: the GPU compiles the kernels once, and the second finds them in the browser's cache.
+    // One after the other: both at once would compile the same kernels at the same time.
     for (const viewer of this.#viewers) {
       await viewer.load(createLiveScene('push-button'));
       const { theta, phi } = viewer.orbit!;

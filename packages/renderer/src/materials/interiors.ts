@@ -55,7 +55,9 @@ export function refractsLight(material: Material): boolean {
 }
 
 /** The flags of the kernels that depend on the interiors of a scene's materials. */
-export function interiorFlags(materials: readonly Material[]): Record<string, boolean> {
+export function interiorFlags(
+  materials: readonly Material[],
+): Record<'MEDIA' | 'SCATTERING' | 'NULL_SURFACES' | 'PATH_DEPTH' | 'DISPERSION' | 'DELTA_TRANSMISSION', boolean> {
   const interiors = materials.filter(hasInterior);
   const scattering = interiors.some(scatters);
   const priorities = new Set(interiors.map((material) => material.dielectric_priority ?? 0));
