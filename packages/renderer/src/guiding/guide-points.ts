@@ -39,6 +39,9 @@ interface Piece {
   readonly sum: number;
 }
 
+/** What share of a node's points may come to be on the wrong side of its split, where another axis parts them better. */
+const MIXED = 0.125;
+
 /** Halvings of a triangle at most. */
 const HALVINGS = 14;
 
@@ -116,18 +119,22 @@ export function guidePoints(
       list.forEach((point, k) => points.set(point, 8 * ((node - leaves) * GUIDE_POINTS + k)));
       return;
     }
-    const extents = [0, 1, 2].map((axis) => {
-      let [low, high] = [Infinity, -Infinity];
-      for (const point of list) {
-        low = Math.min(low, point[axis] as number);
-        high = Math.max(high, point[axis] as number);
-      }
-      return high - low;
-    });
-    const axis = extents.indexOf(Math.max(...extents));
-    list.sort((p, q) => (p[axis] as number) - (q[axis] as number));
     const half = list.length / 2;
-    nodes.set([axis, (list[half] as number[])[axis] as number], 2 * node);
+    // The longest axis whose middle parts the points. Many have the same place on another axis, such as those of a floor
+    // below a light: of them a split can only send all to one side.
+    const axes = [0, 1, 2].map((axis) => {
+      const places = list.map((point) => point[axis] as number).sort((p, q) => p - q);
+      const middle = places[half] as number;
+      const [from, to] = [places.indexOf(middle), places.lastIndexOf(middle) + 1];
+      const isAbove = half - from <= to - half;
+      const place = isAbove ? middle : (middle + (places[to] ?? middle)) / 2;
+      const lost = Math.min(half - from, to - half) / list.length;
+      const extent = (places.at(-1) as number) - (places[0] as number);
+      return { axis, place, rank: lost > MIXED ? -lost : extent };
+    });
+    const { axis, place } = axes.reduce((best, other) => (other.rank > best.rank ? other : best));
+    list.sort((p, q) => (p[axis] as number) - (q[axis] as number));
+    nodes.set([axis, place], 2 * node);
     split(2 * node, list.slice(0, half));
     split(2 * node + 1, list.slice(half));
   };

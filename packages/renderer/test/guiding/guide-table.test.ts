@@ -40,6 +40,19 @@ it('points lie on visible matt surfaces, and the nodes lead from each to its lea
   }
 });
 
+it('the nodes part a floor from a light high above it, and the places of that floor from each other', () => {
+  const lit = createScene();
+  addQuad(lit, 1, 0, lambert(0.5));
+  addQuad(lit, 0.3, 5, lambert(0));
+  const points = pointsOf(lit);
+  // All points of the floor have the same z, where the scene is longest.
+  const own = Array.from({ length: LEAVES * GUIDE_POINTS }, (_, i) => {
+    const place = points.points.subarray(8 * i, 8 * i + 3);
+    return leafOf(points, place) === Math.floor(i / GUIDE_POINTS);
+  });
+  expect(own.filter(Boolean).length / own.length).toBeGreaterThan(0.9);
+});
+
 it('the density of points falls with the square of the distance to the camera', () => {
   const two = createScene();
   addQuad(two, 0.1, 0, lambert(0.5));
