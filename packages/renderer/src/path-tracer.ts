@@ -430,7 +430,7 @@ export class PathTracer extends TracerEdits {
    */
   async readRayCount(): Promise<number> {
     this.#check();
-    const [now] = new Uint32Array(await readBuffer(this.#device, this.#integrator.queues, 32)).subarray(
+    const [now] = new Uint32Array(await readBuffer(this.#device, this.#integrator.buffers.queues, 32)).subarray(
       7,
     ) as unknown as [number];
     // The GPU counts modulo 2^32.

@@ -154,9 +154,9 @@ export class Integrator {
     return this.#kernels;
   }
 
-  /** The queue header; word 3 counts dropped samples, word 7 rays. */
-  get queues(): GPUBuffer {
-    return this.#paths.buffers.queues;
+  /** Of the paths. `queues` begins with a header: word 3 counts dropped samples, word 7 rays. */
+  get buffers(): PathMemory['buffers'] {
+    return this.#paths.buffers;
   }
 
   /**

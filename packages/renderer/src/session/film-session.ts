@@ -226,7 +226,7 @@ export class FilmSession {
     if (layer !== 'beauty') return this.aovs.read(layer);
     const [pixels, counters] = await Promise.all([
       readFloats(device, this.#film.beauty, this.#film.pixels * 16),
-      readBuffer(device, integrator.queues, COUNTERS),
+      readBuffer(device, integrator.buffers.queues, COUNTERS),
     ]);
     this.#count(counters);
     return pixels;
@@ -266,7 +266,7 @@ export class FilmSession {
     import('../film/film-data').catch(() => {});
     const head = { width, height, lightPasses, weights, sampling, fingerprint: fingerprint() };
     const [counters, part, ...sums] = await Promise.all([
-      readBuffer(device, integrator.queues, COUNTERS),
+      readBuffer(device, integrator.buffers.queues, COUNTERS),
       this.reader.head(sampling.sample),
       ...this.reader.copy(...FILM_SUMS.slice(0, beauty ? 4 : 3)),
     ]);
@@ -303,7 +303,7 @@ export class FilmSession {
       for (const name of FILM_SUMS) memory.write(film.buffer(name) as GPUBuffer, state.sums[name]);
       for (const { sums } of state.parts) memory.write(film.head, sums);
       this.#headCopied = state.parts.length > 0;
-      memory.write(integrator.queues, Uint32Array.of(state.badSamples), BAD_SAMPLES);
+      memory.write(integrator.buffers.queues, Uint32Array.of(state.badSamples), BAD_SAMPLES);
     });
     this.#watch(verified);
     this.#badSamples = state.badSamples;

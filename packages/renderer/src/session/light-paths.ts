@@ -25,11 +25,12 @@ export type LightTools = readonly [typeof Integrator, typeof isShown, typeof par
 /** Light paths of a batch at most. */
 const BATCH = 1 << 20;
 /** Pixels of all samples that are traced at once: of small images several samples, so that GPUs have enough to do. */
-const PIXELS = 1 << 18;
+const PIXELS = 1 << 22;
 /** Samples that are traced at once at most. */
 const SAMPLES = 1 << 10;
 /** Three sums of 64 bits. */
 const SPLAT_BYTES = 24;
+const SPLATS = 'light paths';
 
 // GPUBufferUsage, which Node does not define.
 const STORAGE = 0x0080 | 0x0008;
@@ -46,7 +47,9 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
   let casters: GPUBuffer | undefined;
   let splats: GPUBuffer | undefined;
   let paths: Integrator | undefined;
-  let held: ReturnType<GpuMemory['track']>[1] = [];
+  /** Whether memory for the sums of more samples is being asked for, and a number of samples that it was refused for. */
+  let growing = false;
+  let refused = Infinity;
   let kernels = main.kernels;
   let frame: ArrayBuffer | undefined;
   let count = 0;
@@ -56,7 +59,7 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
   let wasGlossy: boolean | undefined;
   const buffers: Readonly<Record<string, () => GPUBuffer>> = {
     light_casters: () => (casters ??= memory.buffer('light casters', 16 * (2 * CASTERS + 1), UNIFORM)),
-    light_splats: () => (splats ??= memory.buffer('light paths', SPLAT_BYTES * main.pixels, STORAGE)),
+    light_splats: () => (splats ??= memory.buffer(SPLATS, SPLAT_BYTES * main.pixels, STORAGE)),
   };
   const buffer = (name: string) => buffers[name]?.();
   /** Bytes of the sums of a sample. */
@@ -64,7 +67,33 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
     const { features } = main.kernels;
     return SPLAT_BYTES * main.pixels * features.lightPasses;
   };
-  const samplesAtOnce = () => Math.min(SAMPLES, Math.max(1, Math.floor(PIXELS / main.pixels)));
+  /** How many of a batch's samples are traced at once: those whose sums fit into the memory that there is. */
+  const samplesAtOnce = (samples: number) => {
+    const bytes = sampleBytes();
+    if (!splats || splats.size < bytes) {
+      memory.release(splats);
+      splats = memory.buffer(SPLATS, bytes, STORAGE);
+      main.rebind('film');
+    }
+    const { maxBufferSize, maxStorageBufferBindingSize } = device.limits;
+    const most = Math.min(PIXELS / main.pixels, Math.min(maxBufferSize, maxStorageBufferBindingSize) / bytes, SAMPLES);
+    const requested = Math.min(samples, Math.floor(most));
+    if (requested * bytes > splats.size && requested < refused && !growing) void grow(requested, bytes);
+    return Math.min(samples, Math.floor(splats.size / bytes));
+  };
+  /** Asks for more. Where it is refused, all goes on as before: it is only faster. */
+  const grow = async (samples: number, bytes: number) => {
+    growing = true;
+    device.pushErrorScope('out-of-memory');
+    const made = memory.buffer(SPLATS, samples * bytes, STORAGE);
+    const error = await device.popErrorScope().catch((lost: unknown) => lost);
+    growing = false;
+    if (error) refused = samples;
+    if (error || memory.destroyed || bytes !== sampleBytes()) return memory.release(made);
+    memory.release(splats);
+    splats = made;
+    main.rebind('film');
+  };
   const bring = () => {
     if (paths && kernels === main.kernels) return paths;
     kernels = main.kernels;
@@ -73,9 +102,9 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
     const { intersect, advance, light_begin: begin, light_start: generate, light_trace: shade } = kernels.kernels;
     const own = { features, kernels: { begin, generate, intersect, shade, advance } as typeof kernels.kernels };
     if (!paths) {
-      const pixels = Math.min(BATCH, Math.max(count, 1) * samplesAtOnce());
+      const pixels = Math.min(BATCH, Math.max(count, 1));
       const film = { pixels, buffer, bytes: ({ size }: GPUBuffer) => size };
-      [paths, held] = memory.track(() => new Paths(device, memory, gpuScene, features, film, BATCH, options));
+      paths = new Paths(device, memory, gpuScene, features, film, BATCH, options);
       if (frame) paths.writeFrame(frame);
     }
     paths.prepare(own).use();
@@ -106,29 +135,24 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
     rebind(group?: BindGroupName) {
       if (group) return paths?.rebind(group);
       // The GPU has refused something, perhaps these.
-      for (const resource of held) memory.release(resource);
+      for (const resource of paths ? Object.values(paths.buffers) : []) memory.release(resource);
       memory.release(splats);
       paths = splats = undefined;
     },
     submit(batch: Batch, trace: (part: Batch) => void) {
       if (!main.kernels.features.flags.LIGHT_PATHS) return trace(batch);
-      const atOnce = samplesAtOnce();
-      const bytes = sampleBytes();
-      if (!splats || splats.size < atOnce * bytes) {
-        memory.release(splats);
-        splats = memory.buffer('light paths', atOnce * bytes, STORAGE);
-        main.rebind('film');
-      }
       const { sampleOffset, sampleCount } = batch;
+      const bytes = sampleBytes();
+      const atOnce = samplesAtOnce(sampleCount);
       for (let first = 0; first < sampleCount; first += atOnce) {
         const samples = Math.min(atOnce, sampleCount - first);
         const part = { ...batch, sampleOffset: sampleOffset + first, sampleCount: samples };
         const encoder = device.createCommandEncoder({ label: 'glanz light paths' });
-        encoder.clearBuffer(splats, 0, samples * bytes);
+        encoder.clearBuffer(splats as GPUBuffer, 0, samples * bytes);
         device.queue.submit([encoder.finish()]);
         if (count > 0) {
           const light = bring();
-          const step = Math.max(1, Math.floor(light.capacity / samples));
+          const step = Math.max(1, Math.floor(light.room(Math.min(BATCH, count * samples)) / samples));
           for (let offset = 0; offset < count; offset += step) {
             const own = { ...part, pixelOffset: offset, pixelCount: Math.min(step, count - offset) };
             light.submit(own, { begin: 0, end: 0, only: true });

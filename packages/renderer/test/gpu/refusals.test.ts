@@ -218,3 +218,28 @@ it('a GPU that has no memory for more paths at once renders the same image in sm
   tracer.destroy();
   expect(recorder.uncaptured).toEqual([]);
 });
+
+it('memory for light paths of more samples at once is refused: the film goes on without, and is the same', async () => {
+  const glass = stage();
+  const parameters = { transmission_weight: 1, specular_roughness: 0 };
+  addSphere(glass, 0.2, [0.4, 0, 0.4], { name: 'glass', parameters }, 8);
+  const traced = async () => {
+    const tracer = await PathTracer.create(device, glass, { ...options, lightPaths: 0.5 });
+    // The second batch has several samples.
+    await image(tracer, 1);
+    await image(tracer, 12);
+    const film = await image(tracer, 24);
+    tracer.destroy();
+    return film;
+  };
+  recorder.clear();
+  const expected = await traced();
+  const sums = recorder.points.filter(({ name }) => /^createBuffer "glanz light paths"/.test(name));
+  expect(sums.length).toBeGreaterThan(1);
+  for (const { name: point } of sums.slice(1)) {
+    recorder.clear({ point, fault: 'out-of-memory' });
+    expect(await traced(), point).toEqual(expected);
+    expect(recorder.struck, point).toBeTruthy();
+  }
+  expect(recorder.uncaptured).toEqual([]);
+});
