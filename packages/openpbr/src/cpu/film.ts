@@ -168,9 +168,8 @@ export const filmFacet = (film: Film, c: number): OpenPbrColor =>
 /** Facets that a film's changes are summed over: so many rings of the cap of visible normals, and facets of each. */
 export type FilmFacets = readonly [rings: 2 | 3, around: 3 | 4];
 
-/** More where light goes through the surface, and most from inside, where total reflection has an edge. */
-export const filmFacets = (p: OpenPbrParameters, inside: boolean): FilmFacets =>
-  inside ? [3, 4] : p.transmission_weight > 0 || p.subsurface_weight > 0 ? [3, 3] : [2, 3];
+/** More from inside, where total reflection has an edge. */
+export const filmFacets = (inside: boolean): FilmFacets => (inside ? [3, 4] : [2, 3]);
 
 /** Where along the cap the rings are, and how much they count: Gauss and Legendre's. */
 const RINGS = {

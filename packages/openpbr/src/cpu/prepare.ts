@@ -145,8 +145,11 @@ export function prepareBsdf(
     const lost = multipleScattering ? conductorLoss(slopes, r, wo, mu) : 0;
     const meanLost = Math.max(conductorLossMean(slopes, r), 1e-7);
     const seen = mu + 0.8 * r * r * (1 - mu);
-    const typical = filmedMetal(film, index, weight, seen, fresnelMetal(f0, p.specular_color, seen, weight));
-    const mean = filmedMetal(film, index, weight, 0.7, fresnelMetalMean(f0, p.specular_color, weight));
+    // Below a film one facet serves both: the mean's where the metal is rough, with Schlick's rise from there.
+    const facet = mix(seen, 0.7, clamp(10 * r - 0.5, 0, 1));
+    const rise = Math.max((1 - seen) ** 5 - (1 - facet) ** 5, 0);
+    const typical = filmedMetal(film, index, weight, facet, fresnelMetal(f0, p.specular_color, seen, weight), rise);
+    const mean = filmedMetal(film, index, weight, facet, fresnelMetalMean(f0, p.specular_color, weight));
     const limit = clamp(weight, 1e-6, 1);
     const amount = p.base_metalness * share;
     return {
@@ -171,7 +174,7 @@ export function prepareBsdf(
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   // From inside nothing opaque lies beyond it.
   const uncoated = interfaceOf(inside ? { ...outer, transmission_weight: 1 } : outer);
-  const facets = filmFacets(p, inside);
+  const facets = filmFacets(inside);
   const filmed = filmChange(film, (1 + face.epsilon) / (1 - face.epsilon), face.albedo, alpha, wo, facets);
   const clear = inside
     ? filmChange(film, (1 + uncoated.epsilon) / (1 - uncoated.epsilon), uncoated.albedo, alpha, wo, facets)
@@ -279,20 +282,18 @@ export function prepareBsdf(
   };
 }
 
-/** Reflectance of metal with its film. */
+/** Reflectance of metal with its film, at the cosine `c`; `rise` is how far the film's goes on towards 1. */
 export function filmedMetal(
   film: Film,
   index: Bsdf['metal']['index'],
   specularWeight: number,
   c: number,
   clear: OpenPbrColor,
+  rise = 0,
 ): OpenPbrColor {
   if (film.weight <= 0) return clear;
-  return rgb((i) =>
-    mix(
-      clear[i],
-      Math.min(specularWeight * filmReflectance(film, index[i], (1 - c * c) * film.grazing)[i], 1),
-      film.weight,
-    ),
-  );
+  return rgb((i) => {
+    const color = mix(filmReflectance(film, index[i], (1 - c * c) * film.grazing)[i], 1, rise);
+    return mix(clear[i], Math.min(specularWeight * color, 1), film.weight);
+  });
 }

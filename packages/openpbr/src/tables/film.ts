@@ -20,6 +20,6 @@ export interface FilmBands {
 export const FILM_BANDS: FilmBands = {
   wavenumbers: OPENPBR_FILM_BANDS,
   width: OPENPBR_FILM_WIDTH,
-  weights: [0, 1, 2].map((channel) => OPENPBR_FILM_WEIGHTS.map((band) => band[channel]!)),
-  sines: [0, 1, 2].map((channel) => OPENPBR_FILM_SINES.map((band) => band[channel]!)),
+  weights: OPENPBR_FILM_WEIGHTS,
+  sines: OPENPBR_FILM_SINES,
 };
