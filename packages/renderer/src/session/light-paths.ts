@@ -76,8 +76,8 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
       main.rebind('film');
     }
     const { maxBufferSize, maxStorageBufferBindingSize } = device.limits;
-    const most = Math.min(PIXELS / main.pixels, Math.min(maxBufferSize, maxStorageBufferBindingSize) / bytes, SAMPLES);
-    const requested = Math.min(samples, Math.floor(most));
+    const max = Math.min(PIXELS / main.pixels, Math.min(maxBufferSize, maxStorageBufferBindingSize) / bytes, SAMPLES);
+    const requested = Math.min(samples, Math.floor(max));
     if (requested * bytes > splats.size && requested < refused && !growing) void grow(requested, bytes);
     return Math.min(samples, Math.floor(splats.size / bytes));
   };
