@@ -73,10 +73,9 @@ export interface PathTracerOptions {
   /**
    * Unbiased: learns before the first sample from which directions light reaches the scene's surfaces, and samples
    * these more often (path guiding). The number of paths that it learns from, in millions: 0 (default) off, 16 for a
-   * room. In our tests that leaves half of the noise of indirect light and of caustics of larger lights, at the same
-   * time per sample. Caustics of small lights through smooth glass, which these paths rarely find, get up to twice as
-   * noisy. The guide is learned once, in `PathTracer.create`: after edits the image stays right, and gains less. 0 to
-   * 1000.
+   * room. In our tests that leaves half of the noise of indirect light and of caustics of larger lights, and up to 6 %
+   * more where light comes from everywhere; a sample takes up to a sixth longer. The guide is learned once, in
+   * `PathTracer.create`: after edits the image stays right, and gains less. 0 to 1000.
    */
   readonly guiding?: number;
   /**

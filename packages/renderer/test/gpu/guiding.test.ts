@@ -98,28 +98,49 @@ async function film(scene: Scene, samples: number, options: Partial<PathTracerOp
 }
 
 describe('PathTracer with a guide', () => {
+  // Mean over seeds of the image's mean with its standard error, and the mean variance of its pixels.
+  const measure = async (scene: Scene, guiding: number) => {
+    const images: Float32Array[] = [];
+    for (let seed = 1; seed <= 6; seed++) images.push(await film(scene, 32, { guiding, seed }));
+    const pixels = Array.from({ length: SIZE * SIZE }, (_, i) => images.map((image) => image[4 * i]!));
+    const mean = (values: readonly number[]) => values.reduce((a, b) => a + b) / values.length;
+    const variance = mean(
+      pixels.map((values) => values.reduce((sum, x) => sum + (x - mean(values)) ** 2, 0) / (values.length - 1)),
+    );
+    // Pixels are independent: the error of the mean follows from theirs.
+    return { mean: mean(pixels.map(mean)), variance, error: Math.sqrt(variance / (images.length * pixels.length)) };
+  };
+
   it('leaves the mean as it is, and takes most of the noise of indirect light away', async () => {
-    // Mean and variance over seeds of the image's mean, and the mean variance of its pixels.
-    const measure = async (guiding: number) => {
-      const images: Float32Array[] = [];
-      for (let seed = 1; seed <= 6; seed++) images.push(await film(indirect(), 32, { guiding, seed }));
-      const pixels = Array.from({ length: SIZE * SIZE }, (_, i) => images.map((image) => image[4 * i]!));
-      const mean = (values: readonly number[]) => values.reduce((a, b) => a + b) / values.length;
-      const variance = (values: readonly number[]) =>
-        values.reduce((sum, value) => sum + (value - mean(values)) ** 2, 0) / (values.length - 1);
-      return {
-        mean: mean(pixels.map(mean)),
-        variance: mean(pixels.map(variance)),
-        // Pixels are independent: the error of the mean follows from theirs.
-        error: Math.sqrt(mean(pixels.map(variance)) / (images.length * pixels.length)),
-      };
-    };
-    const [plain, guided] = [await measure(0), await measure(0.1)];
+    const [plain, guided] = [await measure(indirect(), 0), await measure(indirect(), 0.1)];
     expect(plain.mean).toBeGreaterThan(0);
     // Five standard errors: by chance once in 1.7 million.
     expect(Math.abs(guided.mean - plain.mean)).toBeLessThan(5 * Math.hypot(plain.error, guided.error));
     // 1,280 degrees of freedom each: a ratio of variances is known within 20 %, and that of this scene is a third.
     expect(guided.variance).toBeLessThan(0.6 * plain.variance);
+  });
+
+  it('leaves highlights to the closure: mean and noise of a glossy, coated and fuzzy floor stay as they are', async () => {
+    const scene = createScene();
+    const parameters = { base_color: [0.05, 0.05, 0.05], specular_ior: 2, specular_roughness: 0.3 } as const;
+    const layers = { coat_weight: 0.3, coat_roughness: 0.4, fuzz_weight: 0.1 };
+    addQuad(scene, 1, 0, { name: 'glossy', parameters: { ...parameters, ...layers } });
+    // A ceiling with a bright spot, which the floor mirrors.
+    addQuad(scene, 1, 0, lambert(0.9), { transform: [1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 3, 1] });
+    scene.lights.push({
+      type: 'spot',
+      name: 'spot',
+      color: [1, 1, 1],
+      intensity: 100,
+      position: [0, 0, 2],
+      direction: [0, 0, 1],
+      inner_cone_angle: 0.3,
+      outer_cone_angle: 0.4,
+    });
+    const [plain, guided] = [await measure(scene, 0), await measure(scene, 0.1)];
+    expect(plain.mean).toBeGreaterThan(0);
+    expect(Math.abs(guided.mean - plain.mean)).toBeLessThan(5 * Math.hypot(plain.error, guided.error));
+    expect(guided.variance).toBeLessThan(1.25 * plain.variance);
   });
 
   it('gives the same film, bit for bit, however it is cut into batches', async () => {
