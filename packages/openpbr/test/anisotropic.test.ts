@@ -5,7 +5,7 @@ import { interfaceAlbedo } from '../scripts/microfacet.mjs';
 import { evalBsdf, ggxAlpha, prepareBsdf, sampleBsdf } from '../src/cpu/index';
 import { resolveParameters, type OpenPbrParameters } from '../src/parameters/index';
 import { anisotropicEnergy } from '../src/cpu/anisotropic';
-import { openpbrEnergy, requiredFeatures } from '../src/wgsl/index';
+import { requiredFeatures } from '../src/wgsl/index';
 import openpbrAnisotropic from '../src/wgsl/anisotropic.wesl';
 import { direction, whiteDielectric, whiteMetal } from './integrate';
 import { tableData, TABLES_WGSL } from './gpu';
@@ -80,11 +80,9 @@ ${TABLES_WGSL}
 @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3u) {
   if (id.x >= arrayLength(&results)) { return; }
   let a = surfaces[2u * id.x];
-  let wo = surfaces[2u * id.x + 1u].xyz;
-  let alpha = openpbr_alpha(a.y, a.z);
-  results[id.x] = openpbr_anisotropic(a.xw, alpha, wo, openpbr_conductor_loss(alpha, a.y, wo, wo.z));
+  results[id.x] = openpbr_anisotropic(a.xw, openpbr_alpha(a.y, a.z), surfaces[2u * id.x + 1u].xyz);
 }`,
-      [openpbrAnisotropic, openpbrEnergy],
+      [openpbrAnisotropic],
     );
     const flags = requiredFeatures([{ transmission_weight: 1, specular_roughness_anisotropy: 0.5 }]);
     const inputs = [
