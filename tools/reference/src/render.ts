@@ -52,6 +52,8 @@ export interface GroundTruthOptions {
   readonly sampler?: NonNullable<PathTracerOptions['sampler']>;
   /** See `PathTracerOptions.lightPaths`. Default 0. */
   readonly lightPaths?: number;
+  /** See `PathTracerOptions.guiding`. Default 0. */
+  readonly guiding?: number;
   /** Edges of a path at most. Default that of the reference. */
   readonly maxDepth?: number;
 }
@@ -64,11 +66,12 @@ export function groundTruthOptions(
     seed = 0,
     sampler = 'blue-noise',
     lightPaths = 0,
+    guiding = 0,
     maxDepth = truth.maxDepth(variant),
   }: Omit<GroundTruthOptions, 'samples' | 'noise'>,
 ): PathTracerOptions {
   const { width, height } = truth.description.film;
-  return { width, height, seed, sampler, lightPaths, maxDepth, camera: 0, multipleScattering: false };
+  return { width, height, seed, sampler, lightPaths, guiding, maxDepth, camera: 0, multipleScattering: false };
 }
 
 /** Renders a scene of the reference set the way its reference was and compares. */

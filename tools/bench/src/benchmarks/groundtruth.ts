@@ -16,12 +16,18 @@ import { estimated, type Benchmark, type Figure } from '../benchmark';
 import { decodePixels, packedFolder, usePackedReferences } from '../equal-time/load';
 import { BenchError } from '../error';
 
-/** Targets for relMSE × samples, of a renderer with Sobol sampling and MIS compensation. */
+/**
+ * Targets for relMSE × samples, of a renderer with Sobol sampling and MIS compensation; those of env_sun, cornell_spheres
+ * and glass_caustic are for light paths and guiding.
+ */
 const TARGETS: Readonly<Record<string, number>> = {
   env_soft: 0.15,
   env_sun: 0.9,
   cornell_diffuse: 0.19,
+  cornell_spheres: 0.9,
   dof: 0.22,
+  glass_caustic: 1.5,
+  medium_scatter: 0.9,
   veach_mis: 0.2,
 };
 
@@ -33,6 +39,8 @@ export const benchmark: Benchmark = {
     samples: { type: 'string', help: 'samples per pixel of each run' },
     depth: { type: 'string', help: "edges of a path at most; default that of each scene's reference" },
     'light-paths': { type: 'string', help: 'light paths per pixel and sample; default 0' },
+    guiding: { type: 'string', help: 'millions of paths that a guide learns from; default 0' },
+    runs: { type: 'string', help: 'independent runs; default 4' },
     slopes: {
       type: 'string',
       help: 'most samples per pixel for the slopes of convergence, 16 at least; without it they are not measured',
@@ -48,9 +56,10 @@ export const benchmark: Benchmark = {
     const { gpu: api, adapterName, software } = await createGpu(gpu === undefined ? {} : { gpu });
     const device = await requestDevice({ gpu: api });
     // Independent seeds give the interval; their mean is the image that is checked.
-    const runs = quick ? 2 : 4;
+    const runs = wholeNumber('runs', values['runs']) ?? (quick ? 2 : 4);
     const samples = wholeNumber('samples', values['samples']) ?? (quick ? 4 : software ? 32 : 256);
     const lightPaths = Number(values['light-paths'] ?? 0);
+    const guiding = Number(values['guiding'] ?? 0);
     const depth = wholeNumber('depth', values['depth']);
     const requested = values['scenes']?.split(',');
     const unknown = requested?.find((name) => !GROUND_TRUTH_CASES.some(({ scene }) => scene === name));
@@ -87,6 +96,7 @@ export const benchmark: Benchmark = {
           variant,
           seed,
           lightPaths,
+          guiding,
           ...(depth === undefined ? {} : { maxDepth: depth }),
         });
         image.forEach((value, i) => (sum[i]! += value / runs));
@@ -149,7 +159,14 @@ export const benchmark: Benchmark = {
     });
     device.destroy();
     return {
-      settings: { samples, runs, lightPaths, ...(depth === undefined ? {} : { depth }), multipleScattering: false },
+      settings: {
+        samples,
+        runs,
+        lightPaths,
+        guiding,
+        ...(depth === undefined ? {} : { depth }),
+        multipleScattering: false,
+      },
       gpu: { name: adapterName, software },
       figures,
       notes,
