@@ -47,6 +47,8 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
   let casters: GPUBuffer | undefined;
   let splats: GPUBuffer | undefined;
   let paths: Integrator | undefined;
+  /** Those that were given up; memory that they had asked for may still arrive. */
+  const dropped: Integrator[] = [];
   /** Whether memory for the sums of more samples is being asked for, and a number of samples that it was refused for. */
   let growing = false;
   let refused = Infinity;
@@ -94,6 +96,9 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
     splats = made;
     main.rebind('film');
   };
+  const release = () => {
+    for (const { buffers: made } of dropped) for (const buffer of Object.values(made)) memory.release(buffer);
+  };
   const bring = () => {
     if (paths && kernels === main.kernels) return paths;
     kernels = main.kernels;
@@ -135,12 +140,14 @@ export function lightTracing(source: LightSource, tools: LightTools): LightTraci
     rebind(group?: BindGroupName) {
       if (group) return paths?.rebind(group);
       // The GPU has refused something, perhaps these.
-      for (const resource of paths ? Object.values(paths.buffers) : []) memory.release(resource);
+      if (paths) dropped.push(paths);
+      release();
       memory.release(splats);
       paths = splats = undefined;
     },
     submit(batch: Batch, trace: (part: Batch) => void) {
       if (!main.kernels.features.flags.LIGHT_PATHS) return trace(batch);
+      release();
       const { sampleOffset, sampleCount } = batch;
       const bytes = sampleBytes();
       const atOnce = samplesAtOnce(sampleCount);
