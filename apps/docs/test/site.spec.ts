@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { gzipSync } from 'node:zlib';
-import { checkAccessibility, photograph } from '@glanz/browser';
+import { checkAccessibility, photograph, type Pixels } from '@glanz/browser';
 import { expect, test, type Page } from '@playwright/test';
 import { WITHOUT_GPU } from '@glanz/browser/launch';
 import { buildSite, DIST, fileFor, serveSite, sitePages } from './site';
@@ -502,9 +502,11 @@ test.describe('live', () => {
         .poll(async () => Number(await sides.nth(i).getAttribute('data-samples')), { timeout: 90_000 })
         .toBeGreaterThan(3);
     const after = await Promise.all([0, 1].map((i) => photograph(sides.nth(i).locator('canvas'))));
-    const green = (one: (typeof after)[number]) => one.leading.green;
-    expect(Math.abs(green(after[0]!) - green(after[1]!))).toBeLessThan(0.02);
-    expect(Math.abs(green(after[0]!) - green(before[0]!))).toBeGreaterThan(0.01);
+    const apart = (a: Pixels, b: Pixels) =>
+      Math.max(...a.cells.flatMap((cell, i) => cell.map((value, c) => Math.abs(value - b.cells[i]![c]!))));
+    // The turn moves the model through the image, 60 codes and more in a cell; what noise is left is 10.
+    expect(apart(after[0]!, after[1]!)).toBeLessThan(25);
+    expect(apart(after[0]!, before[0]!)).toBeGreaterThan(35);
     expect(complaints).toEqual([]);
   });
 });

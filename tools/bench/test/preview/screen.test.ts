@@ -22,11 +22,10 @@ it('is as much of a browser as a viewer needs', async () => {
   const converged = new Promise<void>((resolve) => void viewer.on('converged', () => resolve(), { once: true }));
   await viewer.load(createCornellBox());
   await converged;
-  const frame = new Promise<boolean>((resolve) =>
-    viewer.on('frame', ({ preview }) => resolve(preview), { once: true }),
-  );
+  // A frame of the image before may still come.
+  const preview = new Promise<void>((resolve) => void viewer.on('frame', (frame) => frame.preview && resolve()));
   viewer.setOrbit({ theta: 0.1 }, { immediate: true });
-  expect(await frame).toBe(true);
+  await preview;
   expect(errors).toEqual([]);
   viewer.destroy();
   // Its loop takes a turn to end.
