@@ -117,8 +117,8 @@ export const openpbrEon: WgslModule = eon;
 /**
  * The metal lobe's reflectance: F82 tint times specular_weight, not above 1. Light that single scattering loses comes
  * back in all directions, coloured by its further bounces (Kulla and Conty 2017): a lobe of its own, smooth and
- * reciprocal, sampled with the diffuse one; exact in energy for white metal. Below a film its colour is that of a facet
- * that depends on the view unless the metal is rough, where it counts: reciprocal only about.
+ * reciprocal, sampled with the diffuse one; exact in energy for white metal. Below a film its colour is that of one
+ * facet, which depends on the view where the metal is smooth: only approximately reciprocal.
  */
 export const openpbrMetal: WgslModule = metal;
 
