@@ -113,7 +113,7 @@ Anisotropic highlights: the energy that metal loses by single scattering is tabu
 
 ## Samples against their density
 
-Chi-squared tests of histograms over 320 cells of equal solid angle, at a significance of 0.01 with Šidák's correction. A lobe fails if the smallest p-value of its settings is below the limit. These rows, the 200 random materials above and the reciprocity below were measured before thin films and anisotropic dielectrics were summed over fewer facets; the tests repeat them with fewer samples.
+Chi-squared tests of histograms over 320 cells of equal solid angle, at a significance of 0.01 with Šidák's correction. A lobe fails if the smallest p-value of its settings is below the limit.
 
 ${table(
   ['lobe', 'settings', 'samples each', 'smallest p-value', 'limit'],
