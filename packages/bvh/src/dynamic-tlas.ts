@@ -147,7 +147,7 @@ export class DynamicTlas implements Tlas {
       if (this.#slots[instance] === undefined)
         throw new BvhError(
           'bvh/instance',
-          `There is no instance ${instance}; the hierarchy was made for ${this.#slots.length}.`,
+          `There is no instance ${instance}; the hierarchy has ${this.#slots.length}.`,
         );
       if (placing) checkTransform(placing, instance);
     }

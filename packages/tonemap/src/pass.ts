@@ -136,7 +136,7 @@ export class ToneMapPass {
     if (!(width >= 1 && height >= 1 && targetSize[0] >= 1 && targetSize[1] >= 1) || source.size < width * height * 16) {
       throw new ToneMapError(
         'tonemap/size',
-        `Cannot draw a ${width}×${height} image from a buffer of ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels; a pixel takes 16 bytes.`,
+        `Cannot draw ${width}×${height} pixels of 16 bytes from ${source.size} bytes to ${targetSize[0]}×${targetSize[1]} pixels.`,
       );
     }
     const { exposure, alpha, filter } = this.#settings;

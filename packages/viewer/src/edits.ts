@@ -28,12 +28,14 @@ export class Edits {
     );
   }
 
-  /** Applies all in the order they first came. @returns Whether there were any. */
-  apply(finished: () => void): boolean {
+  /**
+   * Applies all in the order they first came.
+   * @param begun Gets a promise for each, which resolves when it has taken effect, was refused, or waits again.
+   */
+  apply(begun: (effect: Promise<void>) => void): void {
     const waiting = [...this.#waiting];
     this.#waiting.clear();
-    for (const [key, calls] of waiting) void this.#run(key, calls).then(finished);
-    return waiting.length > 0;
+    for (const [key, calls] of waiting) begun(this.#run(key, calls));
   }
 
   /** Drops all; their promises reject with the reason. */

@@ -74,6 +74,8 @@ export class RenderLoop {
   #lastStep = 0;
   #lastPreview = -Infinity;
   #frame = 0;
+  /** Effects of edits and cameras that wait for their kernels: until then, the film shows what was there before. */
+  readonly #late = new Set<Promise<unknown>>();
   #interrupt = new AbortController();
   #wake: () => void = () => undefined;
 
@@ -166,6 +168,7 @@ export class RenderLoop {
     this.#reuse.drop();
     this.#tracer?.destroy();
     this.#tracer = tracer;
+    this.#late.clear();
     if (restored) {
       this.#fresh = true;
       this.#done = false;
@@ -312,14 +315,16 @@ export class RenderLoop {
       await this.#fit(tracer, full, depth, 1 / plan.divisor);
       if (tracer !== this.#tracer) return;
       this.#dirtyCamera = false;
-      tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).then(
-        // Kernels of another kind of camera came late and cleared the film.
-        () => this.#fresh && this.#tracer?.samples === 0 && this.#edited(),
-        (error: unknown) => this.#engine.isCurrent(tracer) && this.#host.error(error),
+      this.#follow(
+        tracer.setCamera(this.#host.camera(this.#film[0] / this.#film[1])).then(
+          // Kernels of another kind of camera came late and cleared the film.
+          () => this.#fresh && this.#tracer?.samples === 0 && this.#edited(),
+          (error: unknown) => this.#engine.isCurrent(tracer) && this.#host.error(error),
+        ),
       );
       this.#settle = now + settleMs;
     }
-    this.edits.apply(() => this.#edited());
+    this.edits.apply((effect) => this.#follow(effect.then(() => this.#edited())));
     if (changed) this.#restarted();
     const before = tracer.samples;
     if (edited && before === 0) this.#reuse.begin(tracer);
@@ -383,6 +388,8 @@ export class RenderLoop {
     // Samples that were on their way when an earlier run was interrupted were not reported.
     this.#fresh = true;
     if (this.#paused) return this.redraw();
+    // What it shows is no longer wanted.
+    if (this.#late.size) return this.#sleep(this.state);
     this.#done = true;
     if (keepSamples !== false) this.#keeper.offer(tracer, true);
     this.#engine.display()?.forget();
@@ -429,6 +436,11 @@ export class RenderLoop {
   /** Samples of the image in full. */
   get #goal(): number {
     return this.#paused ? 1 : this.#settings.samples;
+  }
+
+  #follow(effect: Promise<unknown>): void {
+    this.#late.add(effect);
+    void effect.finally(() => this.#late.delete(effect) && this.#wake());
   }
 
   /** An edit has taken effect, perhaps by kernels that came late and restarted the film. */

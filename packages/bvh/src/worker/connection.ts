@@ -59,10 +59,7 @@ export function startWorker(): WebWorkerLike | NodeWorkerLike {
   }
   const threads = builtin<{ readonly Worker: new (url: URL) => NodeWorkerLike }>('node:worker_threads');
   if (!threads)
-    throw new BvhError(
-      'bvh/worker',
-      'Workers are unavailable: there is neither Worker nor process.getBuiltinModule (Node 20.16 or later).',
-    );
+    throw new BvhError('bvh/worker', 'Workers need Worker or process.getBuiltinModule (Node 20.16 or later).');
   // Not in that form, or they would add the file a second time.
   const { url } = import.meta;
   return new threads.Worker(new URL('./worker.js', url));

@@ -430,5 +430,4 @@ const canShare = ({ triangles, transfer, options: { builder } }: Job) =>
   !transfer &&
   (builder === undefined || builder === 'balanced');
 
-const destroyed = () =>
-  new BvhError('bvh/destroyed', 'The workers were destroyed: call BvhWorkers.create() again for further builds.');
+const destroyed = () => new BvhError('bvh/destroyed', 'The workers were destroyed: call BvhWorkers.create() again.');
