@@ -10,6 +10,8 @@ export interface KernelTime {
   /** GPU milliseconds of all its dispatches. */
   readonly milliseconds: number;
   readonly dispatches: number;
+  /** GPU milliseconds of each dispatch, in their order. */
+  readonly each: readonly number[];
   /** Workgroups of its indirect dispatches. */
   readonly workgroups: number;
 }
@@ -151,11 +153,13 @@ export class KernelClock {
   }
 
   #sum(names: readonly Name[], repeats: number, times: BigUint64Array, counts: Uint32Array): KernelTime[] {
-    const sums = new Map<string, { -readonly [K in keyof KernelTime]: KernelTime[K] }>();
+    const sums = new Map<string, { -readonly [K in keyof KernelTime]: KernelTime[K] } & { each: number[] }>();
     names.forEach((name, i) => {
       const key = `${name.kernel}\n${name.pipeline}`;
-      const sum = sums.get(key) ?? { ...name, milliseconds: 0, dispatches: 0, workgroups: 0 };
-      sum.milliseconds += Number((times[2 * i + 1] as bigint) - (times[2 * i] as bigint)) / 1e6 / repeats;
+      const sum = sums.get(key) ?? { ...name, milliseconds: 0, dispatches: 0, workgroups: 0, each: [] };
+      const milliseconds = Number((times[2 * i + 1] as bigint) - (times[2 * i] as bigint)) / 1e6 / repeats;
+      sum.each.push(milliseconds);
+      sum.milliseconds += milliseconds;
       sum.dispatches++;
       if (this.#indirect[i]) sum.workgroups += counts[i] as number;
       sums.set(key, sum);
