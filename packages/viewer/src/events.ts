@@ -53,7 +53,7 @@ export interface ViewerEvents {
     readonly remainingMs: number;
     readonly denoised: boolean;
   };
-  /** The image has all samples, or has reached the noise target. */
+  /** The image, with all edits, has all samples, or has reached the noise target. */
   converged: {
     readonly samples: number;
     /** Since the view or the scene last changed. */ readonly milliseconds: number;
