@@ -257,7 +257,7 @@ describe('ToneMapPass', () => {
   it('refuses impossible sizes and use after destroy, and may be destroyed twice', async () => {
     const source = upload(new Float32Array(16));
     const pass = await ToneMapPass.create(device, { format: 'rgba8unorm' });
-    await expect(drawn(pass, source, [3, 3])).rejects.toThrow(/3×3 image from a buffer of 64 bytes/);
+    await expect(drawn(pass, source, [3, 3])).rejects.toThrow(/3×3 pixels of 16 bytes from 64 bytes/);
     await expect(drawn(pass, source, [0, 2])).rejects.toThrow(ToneMapError);
     pass.destroy();
     pass.destroy();
