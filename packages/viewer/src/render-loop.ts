@@ -388,7 +388,7 @@ export class RenderLoop {
     // Samples that were on their way when an earlier run was interrupted were not reported.
     this.#fresh = true;
     if (this.#paused) return this.redraw();
-    // What it shows is no longer wanted.
+    // It shows what was there before an edit; the edit's kernels wake the loop.
     if (this.#late.size) return this.#sleep(this.state);
     this.#done = true;
     if (keepSamples !== false) this.#keeper.offer(tracer, true);
@@ -438,6 +438,7 @@ export class RenderLoop {
     return this.#paused ? 1 : this.#settings.samples;
   }
 
+  /** Keeps the image from being done until something has taken effect. */
   #follow(effect: Promise<unknown>): void {
     this.#late.add(effect);
     void effect.finally(() => this.#late.delete(effect) && this.#wake());

@@ -336,10 +336,11 @@ test('an image is not done while the kernel of its camera is compiled', async ({
     return moved;
   }, camera);
   // The view before has all its samples again, and is shown.
-  await expect.poll(() => page.evaluate(() => window.viewer.sampleCount)).toBe(6);
+  const progress = () => page.evaluate(() => [window.viewer.state, window.viewer.sampleCount]);
+  await expect.poll(progress).toEqual(['rendering', 6]);
   await page.waitForTimeout(300);
   expect((await shot(page)).cells).toEqual(before.cells);
-  expect(await page.evaluate(() => window.viewer.state)).toBe('rendering');
+  expect(await progress()).toEqual(['rendering', 6]);
   expect(await heard(page, 'converged')).toHaveLength(1);
   await page.evaluate(() => window.openGate());
   await done(page);
