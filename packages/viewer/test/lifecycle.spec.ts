@@ -313,40 +313,45 @@ test('a GPU error outside of any call is reported by the error event, and the vi
   await done(page);
 });
 
-test('an image is not done while the kernel of its camera is compiled', async ({ page }) => {
-  // Pipelines wait while there is a gate.
-  await page.addInitScript(() => {
-    window.ownDevices = true;
-    const { createComputePipelineAsync: create } = GPUDevice.prototype;
-    GPUDevice.prototype.createComputePipelineAsync = async function (descriptor) {
-      await window.gate;
-      return create.call(this, descriptor);
-    };
-  });
-  await open(page, served.origin);
-  const before = await shot(page);
-  // Both squares, at the left end of a wide view.
-  const camera = { type: 'orthographic', name: 'wide', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 5, 1] };
-  await page.evaluate((wide) => {
-    window.gate = new Promise((resolve) => (window.openGate = resolve));
-    const moved = new Promise<void>((resolve) => {
-      const off = window.viewer.on('state', ({ state }) => state === 'moving' && (off(), resolve()));
+for (const change of ['camera', 'material'])
+  test(`an image is not done while the kernels of its ${change} are compiled`, async ({ page }) => {
+    // Pipelines wait while there is a gate.
+    await page.addInitScript(() => {
+      window.ownDevices = true;
+      const { createComputePipelineAsync: create } = GPUDevice.prototype;
+      GPUDevice.prototype.createComputePipelineAsync = async function (descriptor) {
+        await window.gate;
+        return create.call(this, descriptor);
+      };
     });
-    window.viewer.setCamera({ ...wide, xmag: 6, ymag: 6 } as never, { immediate: true });
-    return moved;
-  }, camera);
-  // The view before has all its samples again, and is shown.
-  const progress = () => page.evaluate(() => [window.viewer.state, window.viewer.sampleCount]);
-  await expect.poll(progress).toEqual(['rendering', 6]);
-  await page.waitForTimeout(300);
-  expect((await shot(page)).cells).toEqual(before.cells);
-  expect(await progress()).toEqual(['rendering', 6]);
-  expect(await heard(page, 'converged')).toHaveLength(1);
-  await page.evaluate(() => window.openGate());
-  await done(page);
-  const { cells } = await shot(page);
-  const differences = cells.flat().map((code, i) => Math.abs(code - before.cells.flat()[i]!));
-  expect(Math.max(...differences)).toBeGreaterThan(20);
-  expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(6);
-  expect(await heard(page, 'converged')).toHaveLength(2);
-});
+    await open(page, served.origin);
+    const before = await shot(page);
+    // Both squares, at the left end of a wide view.
+    const camera = { type: 'orthographic', name: 'wide', transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 5, 1] };
+    await page.evaluate(
+      ([what, wide]) => {
+        window.gate = new Promise((resolve) => (window.openGate = resolve));
+        const moved = new Promise<void>((resolve) => {
+          const off = window.viewer.on('state', ({ state }) => state === 'moving' && (off(), resolve()));
+        });
+        if (what === 'camera') window.viewer.setCamera({ ...wide, xmag: 6, ymag: 6 } as never, { immediate: true });
+        else void window.viewer.setMaterial('left', { coat_weight: 1, coat_color: [0.02, 0.02, 0.9] });
+        return moved;
+      },
+      [change, camera] as const,
+    );
+    // The view before has all its samples again, and is shown.
+    const progress = () => page.evaluate(() => [window.viewer.state, window.viewer.sampleCount]);
+    await expect.poll(progress).toEqual(['rendering', 6]);
+    await page.waitForTimeout(300);
+    expect((await shot(page)).cells).toEqual(before.cells);
+    expect(await progress()).toEqual(['rendering', 6]);
+    expect(await heard(page, 'converged')).toHaveLength(1);
+    await page.evaluate(() => window.openGate());
+    await done(page);
+    const { cells } = await shot(page);
+    const differences = cells.flat().map((code, i) => Math.abs(code - before.cells.flat()[i]!));
+    expect(Math.max(...differences)).toBeGreaterThan(20);
+    expect(await page.evaluate(() => window.viewer.sampleCount)).toBe(6);
+    expect(await heard(page, 'converged')).toHaveLength(2);
+  });
