@@ -334,8 +334,14 @@ export interface KernelParts extends Partial<Pick<KernelText, 'root' | 'host' | 
  * The text of one kernel for a scene's features.
  *
  * @param parts In place of its own, for those of `FILM_KERNELS`, or added to it.
+ * @param strided Whether threads may take several paths each, one after the other: see `countsThreads`.
  */
-export function kernelSource(name: KernelName, features: KernelFeatures, parts: KernelParts = {}): KernelSource {
+export function kernelSource(
+  name: KernelName,
+  features: KernelFeatures,
+  parts: KernelParts = {},
+  strided = false,
+): KernelSource {
   const own = kernelText(name, features);
   const text = { ...own, ...parts, host: [...(own.host ?? []), ...(parts.host ?? [])] };
   const chosen = text.flags ?? features.flags;
@@ -343,6 +349,7 @@ export function kernelSource(name: KernelName, features: KernelFeatures, parts: 
     ...chosen,
     BVH_FILTER: chosen.OPACITY === true || chosen.CULLING === true,
     PASSES: features.lightPasses > 1,
+    GRID_STRIDE: strided,
   };
   const bound = kernelBindings(
     [...text.resources, ...(parts.more ?? [])],

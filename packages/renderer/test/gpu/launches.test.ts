@@ -1,63 +1,114 @@
-import { testDevice } from '@glanz/gpu';
-import { afterAll, beforeAll, expect, it, vi } from 'vitest';
+import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
+import { afterAll, afterEach, beforeAll, expect, it, vi } from 'vitest';
 import { PathTracer } from '../../src/index';
-import { addQuad, addSphere, camera, createScene, lambert } from '../scenes';
+import { addBox, addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 
+// Test machines have no GPU: a software GPU counts the paths that are left, one by another name launches threads for all.
+let software: GPUDevice;
 let device: GPUDevice;
 beforeAll(async () => {
-  device = await testDevice();
-});
-afterAll(() => device.destroy());
-
-// Test machines have no GPU, so that one of the two ways is never gone by itself.
-it('the image is the same bit for bit whether the GPU counts the paths that are left or threads without one end', async () => {
-  const scene = createScene();
-  addQuad(scene, 5, -1, lambert(0.7));
-  addQuad(scene, 1, 3, { name: 'lamp', parameters: { emission_luminance: 5 } }, { flip: true });
-  addSphere(
-    scene,
-    0.5,
-    [0, 0, 0],
-    {
-      name: 'milk',
-      parameters: {
-        transmission_weight: 1,
-        specular_roughness: 0.2,
-        transmission_depth: 0.3,
-        transmission_scatter: [0.8, 0.7, 0.6],
-      },
-    },
-    16,
-  );
-  scene.environment = { type: 'constant', radiance: [0.2, 0.3, 0.4] };
-  const pass = device.createCommandEncoder().beginComputePass();
-  const indirect = vi.spyOn(Object.getPrototypeOf(pass) as GPUComputePassEncoder, 'dispatchWorkgroupsIndirect');
-  const image = async () => {
-    const tracer = await PathTracer.create(device, scene, {
-      width: 16,
-      height: 12,
-      camera,
-      maxDepth: 6,
-      maxVolumeDepth: 48,
-      pathsInFlight: 400,
-    });
-    for await (const _ of tracer.render({ samples: 4 }));
-    const pixels = await tracer.read('beauty');
-    const rays = await tracer.readRayCount();
-    expect(tracer.statistics.badSamples).toBe(0);
-    tracer.destroy();
-    return { pixels, rays };
-  };
-  const counted = await image();
-  expect(indirect).toHaveBeenCalled();
-  indirect.mockClear();
+  software = await testDevice();
+  // Not the same one.
+  device = await testDevice({ features: [] });
   Object.defineProperty(device, 'adapterInfo', {
     value: { vendor: 'a', architecture: 'real', device: 'one', description: '' },
+    configurable: true,
   });
-  const launched = await image();
-  expect(indirect).not.toHaveBeenCalled();
-  expect(launched.rays).toBe(counted.rays);
-  expect(launched.pixels.every((value, i) => Object.is(value, counted.pixels[i]))).toBe(true);
-  // And it is an image.
-  expect(new Set(counted.pixels).size).toBeGreaterThan(300);
 });
+afterAll(async () => {
+  Reflect.deleteProperty(device, 'adapterInfo');
+  await expectNoGpuErrors();
+});
+afterEach(() => {
+  vi.restoreAllMocks();
+});
+
+/** Milky glass in front of a wall, below a light: a rough sphere or a smooth box. */
+function milk(roughness: number) {
+  const scene = createScene();
+  addQuad(scene, 5, -1, lambert(0.7));
+  addQuad(scene, 1, 3, { name: 'light', parameters: { emission_luminance: 5 } }, { flip: true });
+  const material = {
+    name: 'milk',
+    parameters: {
+      transmission_weight: 1,
+      specular_roughness: roughness,
+      transmission_depth: 0.3,
+      transmission_scatter: [0.8, 0.7, 0.6] as const,
+    },
+  };
+  if (roughness > 0) addSphere(scene, 0.5, [0, 0, 0], material, 16);
+  else addBox(scene, [-0.4, -0.4, -0.4], [0.4, 0.4, 0.4], material);
+  scene.environment = { type: 'constant', radiance: [0.2, 0.3, 0.4] };
+  return scene;
+}
+
+async function render(on: GPUDevice, roughness: number, lightPaths = 0) {
+  const tracer = await PathTracer.create(on, milk(roughness), {
+    width: 16,
+    height: 12,
+    camera,
+    maxDepth: 6,
+    maxVolumeDepth: 48,
+    pathsInFlight: 400,
+    lightPaths,
+  });
+  for await (const _ of tracer.render({ samples: 4 }));
+  const pixels = await tracer.read('beauty');
+  const rays = await tracer.readRayCount();
+  expect(tracer.statistics.badSamples).toBe(0);
+  tracer.destroy();
+  return { pixels, rays };
+}
+
+type Image = Awaited<ReturnType<typeof render>>;
+
+function expectSame(image: Image, other: Image) {
+  expect(image.rays).toBe(other.rays);
+  expect(image.pixels.every((value, i) => Object.is(value, other.pixels[i]))).toBe(true);
+  // And it is an image.
+  expect(new Set(other.pixels).size).toBeGreaterThan(300);
+}
+
+const passes = () => Object.getPrototypeOf(device.createCommandEncoder().beginComputePass()) as GPUComputePassEncoder;
+
+it('the image is the same bit for bit whether the GPU counts the paths that are left or threads without one end', async () => {
+  const indirect = vi.spyOn(passes(), 'dispatchWorkgroupsIndirect');
+  const counted = await render(software, 0.2);
+  expect(indirect).toHaveBeenCalled();
+  indirect.mockClear();
+  const launched = await render(device, 0.2);
+  expect(indirect).not.toHaveBeenCalled();
+  expectSame(launched, counted);
+});
+
+it.each([
+  { of: 'rough glass', roughness: 0.2, lightPaths: 0, kernels: ['connect', 'intersect', 'shade'] },
+  { of: 'smooth glass around a medium', roughness: 0, lightPaths: 0, kernels: ['connect', 'intersect', 'shade'] },
+  {
+    of: 'light paths',
+    roughness: 0,
+    lightPaths: 0.5,
+    kernels: ['connect', 'intersect', 'light_trace', 'shade'],
+  },
+])(
+  'the image is the same bit for bit where one workgroup takes all paths: $of',
+  async ({ roughness, lightPaths, kernels }) => {
+    const many = await render(device, roughness, lightPaths);
+    const prototype = passes();
+    const { setPipeline, dispatchWorkgroups } = prototype;
+    const labels = new WeakMap<GPUComputePassEncoder, string>();
+    const narrowed = new Set<string>();
+    vi.spyOn(prototype, 'setPipeline').mockImplementation(function (this: GPUComputePassEncoder, pipeline) {
+      labels.set(this, pipeline.label);
+      return setPipeline.call(this, pipeline);
+    });
+    vi.spyOn(prototype, 'dispatchWorkgroups').mockImplementation(function (this: GPUComputePassEncoder, x, y, z) {
+      const [, name] = / (intersect|shade|connect|light_trace)$/.exec(labels.get(this) ?? '') ?? [];
+      if (name && x > 1) narrowed.add(name);
+      return dispatchWorkgroups.call(this, name ? 1 : x, y, z);
+    });
+    expectSame(await render(device, roughness, lightPaths), many);
+    expect([...narrowed].sort()).toEqual(kernels);
+  },
+);
