@@ -14,7 +14,8 @@ const MAX_FIXED = 0.9;
 export class CostModel {
   #fixed: number | undefined;
   #mean: number | undefined;
-  #peak = 0;
+  /** The piece that {@link peak} is about, and the share of its cost that is remembered. */
+  #costly = { size: 1, milliseconds: 0, share: 0 };
   #last: { readonly size: number; readonly milliseconds: number } | undefined;
 
   /** Milliseconds that a piece takes besides what its units take; 0 until pieces of different sizes were measured. */
@@ -34,7 +35,8 @@ export class CostModel {
 
   /** Milliseconds a unit: decaying maximum. Parts of an image differ in cost. */
   get peak(): number {
-    return this.#peak;
+    const { size, milliseconds, share } = this.#costly;
+    return (share * Math.max(0, milliseconds - this.fixed)) / size;
   }
 
   /** Learns from a piece of `size` units, above 0, that took `milliseconds`. */
@@ -45,11 +47,14 @@ export class CostModel {
       const shortest = Math.min(milliseconds - slope * size, last.milliseconds - slope * last.size);
       const max = MAX_FIXED * Math.min(milliseconds, last.milliseconds);
       const fixed = Math.min(Math.max(0, shortest), max);
-      this.#fixed = this.#fixed === undefined ? fixed : 0.5 * (this.#fixed + fixed);
+      // Until now each unit seemed to cost its share of what is the same for all sizes.
+      if (!this.isFixedKnown) this.#mean = undefined;
+      this.#fixed = 0.5 * ((this.#fixed ?? fixed) + fixed);
     }
     if (size !== last?.size) this.#last = { size, milliseconds };
     const unit = Math.max(0, milliseconds - this.fixed) / size;
     this.#mean = this.#mean === undefined ? unit : (1 - WEIGHT) * this.#mean + WEIGHT * unit;
-    this.#peak = Math.max(unit, MEMORY * this.#peak);
+    if (unit < MEMORY * this.peak) this.#costly.share *= MEMORY;
+    else this.#costly = { size, milliseconds, share: 1 };
   }
 }

@@ -118,7 +118,9 @@ export class Scheduler {
     } else if (milliseconds < budget * 0.7) {
       // By the speed of this batch, which may have been smaller than allowed.
       const fixed = Math.min(cost.fixed, 0.9 * milliseconds);
-      const possible = ((0.9 * budget - fixed) * paths) / Math.max(milliseconds - fixed, 1e-3);
+      const affordable = ((0.9 * budget - fixed) * paths) / Math.max(milliseconds - fixed, 1e-3);
+      // Sizes that hardly differ do not tell what is the same for all.
+      const possible = Math.max(affordable, cost.isFixedKnown ? 0 : 2 * paths);
       // A band of sky is cheap, and the next one may cost what an earlier one did.
       const safe = cost.peak > 0 ? Math.max(0, 1.4 * budget - cost.fixed) / cost.peak : Infinity;
       if (Math.min(possible, safe) > this.#paths)

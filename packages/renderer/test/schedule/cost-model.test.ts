@@ -31,6 +31,17 @@ describe('CostModel', () => {
     expect(model.peak).toBeCloseTo(0.01 * 0.93 ** 10, 9);
   });
 
+  it('takes nothing that is the same for all sizes for the cost of a unit, once it is known', () => {
+    const model = new CostModel();
+    model.measured(1000, 10 + 0.001 * 1000);
+    expect(model.peak).toBeCloseTo(0.011, 9);
+    model.measured(2000, 10 + 0.001 * 2000);
+    expect(model.fixed).toBeCloseTo(9.9, 1);
+    // 90 % of the shortest at most: 0.0011 of the small piece, 0.00105 of the large one.
+    expect(model.peak).toBeLessThan(0.0012);
+    expect(model.mean).toBeLessThan(0.0012);
+  });
+
   it('never claims more for the fixed part than a piece took, whatever the noise', () => {
     const model = new CostModel();
     for (let i = 0; i < 200; i++) {

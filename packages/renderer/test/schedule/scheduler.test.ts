@@ -68,6 +68,15 @@ describe('Scheduler', () => {
     }
   });
 
+  it.each([
+    // A golden and a glass ball on a fast GPU, and a perfume bottle: milliseconds whatever the size, and of a sample.
+    { fixed: 3.5, sample: 1.45, within: 150 },
+    { fixed: 10, sample: 9, within: 900 },
+  ])('is soon at large batches where small ones cost nearly as much: $fixed ms', ({ fixed, sample, within }) => {
+    const { times } = simulate(512 * 512, 1 << 22, 16, 64, (paths) => fixed + (sample * paths) / (512 * 512));
+    expect(times.reduce((sum, time) => sum + time, 0)).toBeLessThan(within);
+  });
+
   it('does not shrink batches for what they cost whatever their size', () => {
     // 40 ms of launches for a budget of 30.
     const { batches } = simulate(1 << 14, 1 << 22, 30, 3000, (paths) => 40 + paths / 50_000);

@@ -16,6 +16,8 @@ export const benchmark: Benchmark = {
     samples: { type: 'string', help: 'samples a pixel of a run (256)' },
     runs: { type: 'string', help: 'timed runs (5)' },
     depths: { type: 'string', help: "edges of a path at most, separated by commas; default that of each scene's task" },
+    'light-paths': { type: 'string', help: 'light paths for each pixel and sample (0)' },
+    guiding: { type: 'string', help: 'millions of paths that a guide learns from (0)' },
   },
   async run({ log, quick, gpu, values }) {
     const names = listOption(
@@ -28,6 +30,8 @@ export const benchmark: Benchmark = {
     const size = numberOption(values, 'size', small ? 64 : 512);
     const samples = numberOption(values, 'samples', small ? 4 : 256);
     const runs = numberOption(values, 'runs', small ? 2 : 5);
+    const lightPaths = Number(values['light-paths'] ?? 0);
+    const guiding = Number(values['guiding'] ?? 0);
     const depths = values['depths']?.split(',').map((text) => numberOption({ depths: text }, 'depths', 1));
     const device = await requestDevice({ gpu: api });
     // Before the tracers: it watches their buffers, too.
@@ -40,7 +44,7 @@ export const benchmark: Benchmark = {
       const scene = await taskScene(task);
       for (const maxDepth of depths ?? [task.maxDepth]) {
         const { camera, multipleScattering } = task;
-        const options = { width: size, height: size, maxDepth, camera, multipleScattering };
+        const options = { width: size, height: size, maxDepth, camera, multipleScattering, lightPaths, guiding };
         const tracer = await PathTracer.create(device, scene, options);
         const render = async (count: number) => {
           tracer.reset();
@@ -77,6 +81,12 @@ export const benchmark: Benchmark = {
           'The times of kernels by themselves contain gaps between them: their shares are what they are for. `details` has each dispatch.',
         ]
       : ['The device has no timestamps: rays are counted, not timed.'];
-    return { settings: { size, samples, depths }, gpu: { name: adapterName, software }, figures, notes, details };
+    return {
+      settings: { size, samples, depths, lightPaths, guiding },
+      gpu: { name: adapterName, software },
+      figures,
+      notes,
+      details,
+    };
   },
 };
