@@ -39,8 +39,11 @@ export class CostModel {
     return (share * Math.max(0, milliseconds - this.fixed)) / size;
   }
 
-  /** Learns from a piece of `size` units, above 0, that took `milliseconds`. */
-  measured(size: number, milliseconds: number): void {
+  /**
+   * Learns from a piece of `size` units, above 0, that took `milliseconds`.
+   * @param whole Whether it has a share of everything, so that no other piece has more expensive units.
+   */
+  measured(size: number, milliseconds: number, whole = false): void {
     const last = this.#last;
     if (last && Math.max(size, last.size) > SPREAD * Math.min(size, last.size)) {
       const slope = Math.max(0, (milliseconds - last.milliseconds) / (size - last.size));
@@ -54,7 +57,7 @@ export class CostModel {
     if (size !== last?.size) this.#last = { size, milliseconds };
     const unit = Math.max(0, milliseconds - this.fixed) / size;
     this.#mean = this.#mean === undefined ? unit : (1 - WEIGHT) * this.#mean + WEIGHT * unit;
-    if (unit < MEMORY * this.peak) this.#costly.share *= MEMORY;
+    if (!whole && unit < MEMORY * this.peak) this.#costly.share *= MEMORY;
     else this.#costly = { size, milliseconds, share: 1 };
   }
 }

@@ -35,6 +35,11 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
   let reported = scheduler.samples;
   let lastDone = performance.now();
   let last = 0;
+  // What was submitted before is not of the first batch.
+  queue.onSubmittedWorkDone().then(
+    () => (lastDone = performance.now()),
+    () => {},
+  );
   let before: { readonly paths: number; readonly milliseconds: number } | undefined;
   const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number>; verified: Promise<void> }[] =
     [];
@@ -69,7 +74,8 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
     const paths = oldest.batch.pixelCount * oldest.batch.sampleCount;
     const shared =
       waited && before ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths) : milliseconds;
-    before = { paths, milliseconds };
+    // The first one has what GPUs do at the first use of kernels and memory, and no other is to be charged for that.
+    before = last > 0 ? { paths, milliseconds } : undefined;
     scheduler.measured(oldest.batch, shared);
     last = shared;
     if (!current()) {

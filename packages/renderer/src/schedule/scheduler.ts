@@ -35,6 +35,7 @@ export class Scheduler {
   budget: number;
   #paths: number;
   readonly #cost = new CostModel();
+  #begun = false;
   #sample: number;
   #pixel = 0;
 
@@ -108,7 +109,9 @@ export class Scheduler {
   measured(batch: Batch, milliseconds: number): void {
     const paths = batch.pixelCount * batch.sampleCount;
     const cost = this.#cost;
-    cost.measured(paths, milliseconds);
+    // The first batch has what GPUs do at the first use of kernels and memory.
+    if (this.#begun) cost.measured(paths, milliseconds, batch.pixelCount === this.pixels);
+    this.#begun = true;
     // What every batch costs, however small, must not take most of the time: long paths through glass leave the GPU
     // nearly idle at their end, and samples that are traced together share that.
     const budget = Math.max(this.budget, 3 * cost.fixed, Math.min(6 * cost.fixed, LONGEST * this.budget));

@@ -77,6 +77,36 @@ describe('Scheduler', () => {
     expect(times.reduce((sum, time) => sum + time, 0)).toBeLessThan(within);
   });
 
+  it('is soon at large batches after a first one that took far longer than others', () => {
+    // The same ball, and 30 ms for the first use of kernels.
+    const { times } = simulate(
+      512 * 512,
+      1 << 22,
+      16,
+      64,
+      (paths, turn) => 3.5 + (1.45 * paths) / (512 * 512) + (turn === 0 ? 30 : 0),
+    );
+    expect(times.reduce((sum, time) => sum + time, 0)).toBeLessThan(200);
+  });
+
+  it('does not hold a whole image to what its most expensive band cost', () => {
+    // All that is expensive lies in the first band.
+    const scheduler = new Scheduler({ pixels: 1 << 18, capacity: 1 << 22, budgetMs: 16 });
+    const sizes: number[] = [];
+    for (let turn = 0; turn < 24; turn++) {
+      const { pixelOffset, pixelCount, sampleCount } = scheduler.next(1000)!;
+      const expensive = Math.max(0, (1 << 14) - pixelOffset) * sampleCount;
+      const paths = pixelCount * sampleCount;
+      sizes.push(paths);
+      scheduler.measured(
+        { pixelOffset, pixelCount, sampleOffset: 0, sampleCount },
+        paths / 1e6 + (6 * expensive) / (1 << 14),
+      );
+    }
+    // 6 ms of each sample in its first band: 16 ms are two samples.
+    expect(sizes.at(-1)).toBeGreaterThanOrEqual(2 << 18);
+  });
+
   it('does not shrink batches for what they cost whatever their size', () => {
     // 40 ms of launches for a budget of 30.
     const { batches } = simulate(1 << 14, 1 << 22, 30, 3000, (paths) => 40 + paths / 50_000);
