@@ -11,11 +11,11 @@ export function isSoftware(info: GPUAdapterInfo): boolean {
 }
 
 /**
- * Whether the GPU itself says how many threads a kernel shall have: only as many as there are paths left. A CPU, for
- * which each group of threads is work, gains by that. Elsewhere the number is fixed, and threads that outnumber the
- * paths end at once; WebGPU checks a number that is on the GPU before it believes it, which is slow there: a path of
- * 256 edges takes 22 times as long on an H200.
+ * Whether kernels are dispatched indirectly, with only as many threads as there are paths left. Software adapters gain
+ * by that, as each workgroup is work for the CPU. On GPUs the number of workgroups is chosen in advance, and their
+ * threads loop over the queue: WebGPU implementations validate the sizes of indirect dispatches on the GPU, which takes
+ * long there. A path of 256 edges took 22 times as long on an H200.
  */
-export function countsThreads({ adapterInfo }: { readonly adapterInfo?: GPUAdapterInfo }): boolean {
+export function usesIndirectDispatch({ adapterInfo }: { readonly adapterInfo?: GPUAdapterInfo }): boolean {
   return adapterInfo !== undefined && isSoftware(adapterInfo);
 }

@@ -10,7 +10,7 @@ import { aovBatchStruct, batchStruct } from '../storage/layout';
 import { createBindGroup, MAX_LIGHT_GROUPS, type BindGroupName } from '../storage/resources';
 import type { Kernel, KernelFeatures, KernelName } from './pipelines';
 import type { Batch } from '../schedule/scheduler';
-import { countsThreads } from '../device/software';
+import { usesIndirectDispatch } from '../device/software';
 
 /** Which samples of a batch record their AOVs, and whether they are traced for nothing else. */
 export interface AovBatch {
@@ -22,9 +22,9 @@ export interface AovBatch {
 }
 
 /**
- * Workgroups of kernels after the first edge, at most: their threads take one path after the other. A GPU spends time on
- * each that finds none, but needs many at once. With 4,096, samples take up to 12 % longer on an H200, with one
- * for each 64 paths of a batch up to 21 %.
+ * Maximum workgroups of kernels after the first edge, which loop over the paths that are left. Workgroups without a path
+ * take time, and too few leave the GPU idle: with 4,096, samples take up to 12 % longer on an H200, with one for each
+ * 64 paths of a batch up to 21 %.
  */
 const LATER_GROUPS = 16384;
 
@@ -81,7 +81,7 @@ export class Integrator {
     scene: new Map(),
     film: new Map(),
   };
-  readonly #counted: boolean;
+  readonly #indirect: boolean;
   /** The bind groups of the pass that is being encoded, by their numbers. */
   #bound: (GPUBindGroup | undefined)[] = [];
   /** As it was written. */
@@ -110,7 +110,7 @@ export class Integrator {
     this.#kernels = { features, kernels: {} };
     this.#film = film;
     this.limits = limits;
-    this.#counted = countsThreads(device);
+    this.#indirect = usesIndirectDispatch(device);
     this.#paths = new PathMemory(device, memory, features, film.pixels, requested, () => this.rebind('launch'));
   }
 
@@ -121,7 +121,7 @@ export class Integrator {
   prewarm(name: KernelName, kernel: Kernel): void {
     this.#groupsOf(kernel);
     // The dispatch sizes are still 0: nothing runs.
-    if (name === 'generate' && this.#counted)
+    if (name === 'generate' && this.#indirect)
       this.#pass('glanz prewarm', (pass) => this.#run(pass, kernel, { indirect: 0 }));
   }
 
@@ -244,7 +244,7 @@ export class Integrator {
       const steps = this.#steps(features.flags);
       for (let step = 1; step <= steps; step++) {
         const groups = step === 1 ? all : Math.min(all, LATER_GROUPS);
-        const sized = (indirect: number) => (this.#counted ? { indirect } : groups);
+        const sized = (indirect: number) => (this.#indirect ? { indirect } : groups);
         run('intersect', sized(0));
         if (step === 1 && frame > 0 && !aovs.only) run('reservoirs', Math.ceil(paths / 64));
         run('shade', sized(0));

@@ -1,7 +1,7 @@
 import { bvhClosestHit } from '@glanz/bvh/wgsl';
 import { loadPart } from '@glanz/wgsl';
 import camera from '../camera/camera.wesl';
-import { countsThreads } from '../device/software';
+import { usesIndirectDispatch } from '../device/software';
 import traversal from '../geometry/traversal.wesl';
 import {
   kernelSource,
@@ -147,7 +147,7 @@ export class KernelCache {
     if (compact) parts = (await loadPart('compact-kernels', import('./compact-kernels'))).compactKernel(parts);
     if (pages)
       parts = (await loadPart('paged-kernels', import('./paged-kernels'))).pagedKernel(this.#device, pages, parts);
-    const source = kernelSource(name, features, parts, !countsThreads(this.#device));
+    const source = kernelSource(name, features, parts, !usesIndirectDispatch(this.#device));
     return remember(this.#kernels, source.key, () => source.compile(this.#device));
   }
 }

@@ -334,7 +334,8 @@ export interface KernelParts extends Partial<Pick<KernelText, 'root' | 'host' | 
  * The text of one kernel for a scene's features.
  *
  * @param parts In place of its own, for those of `FILM_KERNELS`, or added to it.
- * @param strided Whether threads may take several paths each, one after the other: see `countsThreads`.
+ * @param strided Whether kernels of paths loop over the queue in strides of the grid, for any number of workgroups
+ *   (`GRID_STRIDE`); otherwise they need a thread for each path.
  */
 export function kernelSource(
   name: KernelName,

@@ -1,5 +1,7 @@
 /** What is left of a high cost, with each measurement, in {@link CostModel.peak}: half after ten. */
 const MEMORY = 0.93;
+/** The same, with each measurement of a whole. */
+const MEMORY_OF_PARTS = 0.5;
 /** Share of the latest measurement in {@link CostModel.mean}. */
 const WEIGHT = 0.3;
 /** How much two pieces of work must differ in size to show what is spent on each, whatever its size. */
@@ -41,7 +43,7 @@ export class CostModel {
 
   /**
    * Learns from a piece of `size` units, above 0, that took `milliseconds`.
-   * @param whole Whether it has a share of everything, so that no other piece has more expensive units.
+   * @param whole Whether it has parts of everything, so that units of others do not cost more for long.
    */
   measured(size: number, milliseconds: number, whole = false): void {
     const last = this.#last;
@@ -50,14 +52,13 @@ export class CostModel {
       const shortest = Math.min(milliseconds - slope * size, last.milliseconds - slope * last.size);
       const max = MAX_FIXED * Math.min(milliseconds, last.milliseconds);
       const fixed = Math.min(Math.max(0, shortest), max);
-      // Until now each unit seemed to cost its share of what is the same for all sizes.
-      if (!this.isFixedKnown) this.#mean = undefined;
       this.#fixed = 0.5 * ((this.#fixed ?? fixed) + fixed);
     }
     if (size !== last?.size) this.#last = { size, milliseconds };
     const unit = Math.max(0, milliseconds - this.fixed) / size;
     this.#mean = this.#mean === undefined ? unit : (1 - WEIGHT) * this.#mean + WEIGHT * unit;
-    if (!whole && unit < MEMORY * this.peak) this.#costly.share *= MEMORY;
+    const memory = whole ? MEMORY_OF_PARTS : MEMORY;
+    if (unit < memory * this.peak) this.#costly.share *= memory;
     else this.#costly = { size, milliseconds, share: 1 };
   }
 }

@@ -25,6 +25,8 @@ const IN_FLIGHT = 2;
  * them is short compared with the time that an interruption would wait for a second one.
  */
 const LATE = 1.25;
+/** Milliseconds: reports of the GPU that are closer than that came in one task, of which nothing can be learned. */
+const TOGETHER = 0.25;
 
 /**
  * Submits batches until the target is reached, measures them, and gives the number of samples after each that is
@@ -35,12 +37,13 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
   let reported = scheduler.samples;
   let lastDone = performance.now();
   let last = 0;
-  // What was submitted before is not of the first batch.
+  // When what was submitted before the first batch was done, which it waits for.
+  let idle = 0;
   queue.onSubmittedWorkDone().then(
-    () => (lastDone = performance.now()),
+    () => (idle = performance.now()),
     () => {},
   );
-  let before: { readonly paths: number; readonly milliseconds: number } | undefined;
+  let before: { readonly paths: number; readonly milliseconds: number; readonly first: boolean } | undefined;
   const inFlight: { batch: Batch; submitted: number; after: number; done: Promise<number>; verified: Promise<void> }[] =
     [];
   for (;;) {
@@ -59,7 +62,10 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
         submitted,
         after: scheduler.samples,
         verified,
-        done: queue.onSubmittedWorkDone().then(() => performance.now() - Math.max(submitted, lastDone)),
+        done: queue.onSubmittedWorkDone().then(() => {
+          const now = performance.now();
+          return now - Math.max(submitted, lastDone, now - idle > TOGETHER ? idle : 0);
+        }),
       });
     }
     const oldest = inFlight.shift();
@@ -72,10 +78,12 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
     // The report of the batch before may have come late, which would make this one look short and the next one far too long:
     // of batches that follow each other, the time of two counts.
     const paths = oldest.batch.pixelCount * oldest.batch.sampleCount;
+    // Not that of the first one, which includes one-time costs, unless both reports came together.
     const shared =
-      waited && before ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths) : milliseconds;
-    // The first one has what GPUs do at the first use of kernels and memory, and no other is to be charged for that.
-    before = last > 0 ? { paths, milliseconds } : undefined;
+      waited && before && (!before.first || milliseconds < TOGETHER)
+        ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths)
+        : milliseconds;
+    before = { paths, milliseconds, first: !before };
     scheduler.measured(oldest.batch, shared);
     last = shared;
     if (!current()) {

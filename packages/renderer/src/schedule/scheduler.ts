@@ -35,22 +35,25 @@ export class Scheduler {
   budget: number;
   #paths: number;
   readonly #cost = new CostModel();
+  /** Whether nothing was learned from others before. */
+  readonly #fresh: boolean;
   #begun = false;
   #sample: number;
   #pixel = 0;
 
   /**
-   * @param paths Paths that the first batch may hold.
+   * @param paths Paths that the first batch may hold, where that was learned from others before.
    * @param samples Samples that the pixels have already.
    * @param pixel Pixels, from the first on, that have one sample more: the next batch is the rest of that sample.
    */
-  constructor(options: SchedulerOptions, paths = SMALLEST * 4, samples = 0, pixel = 0) {
+  constructor(options: SchedulerOptions, paths?: number, samples = 0, pixel = 0) {
     this.pixels = options.pixels;
     this.#sample = samples;
     this.#pixel = pixel;
     this.#capacity = options.capacity;
     this.budget = options.budgetMs;
-    this.#paths = Math.min(paths, options.capacity);
+    this.#fresh = paths === undefined;
+    this.#paths = Math.min(paths ?? SMALLEST * 4, options.capacity);
   }
 
   /** Completed samples of every pixel. */
@@ -109,8 +112,8 @@ export class Scheduler {
   measured(batch: Batch, milliseconds: number): void {
     const paths = batch.pixelCount * batch.sampleCount;
     const cost = this.#cost;
-    // The first batch has what GPUs do at the first use of kernels and memory.
-    if (this.#begun) cost.measured(paths, milliseconds, batch.pixelCount === this.pixels);
+    // The first batch includes one-time costs: first use of kernels and memory.
+    if (this.#begun || !this.#fresh) cost.measured(paths, milliseconds, batch.pixelCount === this.pixels);
     this.#begun = true;
     // What every batch costs, however small, must not take most of the time: long paths through glass leave the GPU
     // nearly idle at their end, and samples that are traced together share that.
@@ -123,7 +126,7 @@ export class Scheduler {
       const fixed = Math.min(cost.fixed, 0.9 * milliseconds);
       const affordable = ((0.9 * budget - fixed) * paths) / Math.max(milliseconds - fixed, 1e-3);
       // Sizes that hardly differ do not tell what is the same for all.
-      const possible = Math.max(affordable, cost.isFixedKnown ? 0 : 2 * paths);
+      const possible = Math.max(affordable, this.#fresh && !cost.isFixedKnown ? 2 * paths : 0);
       // A band of sky is cheap, and the next one may cost what an earlier one did.
       const safe = cost.peak > 0 ? Math.max(0, 1.4 * budget - cost.fixed) / cost.peak : Infinity;
       if (Math.min(possible, safe) > this.#paths)

@@ -1,5 +1,6 @@
 import { expectNoGpuErrors, testDevice } from '@glanz/gpu';
 import { afterAll, afterEach, beforeAll, expect, it, vi } from 'vitest';
+import type { Scene } from '@glanz/scene';
 import { PathTracer } from '../../src/index';
 import { addBox, addQuad, addSphere, camera, createScene, lambert } from '../scenes';
 
@@ -43,8 +44,17 @@ function milk(roughness: number) {
   return scene;
 }
 
-async function render(on: GPUDevice, roughness: number, lightPaths = 0) {
-  const tracer = await PathTracer.create(on, milk(roughness), {
+/** The same on a floor that catches shadows, behind a pane of which half is cut out. */
+function caught() {
+  const scene = milk(0.2);
+  const [wall] = scene.instances;
+  scene.instances[0] = { ...wall!, catcher: true };
+  addQuad(scene, 0.3, 1, { name: 'pane', parameters: { geometry_opacity: 0.5 } });
+  return scene;
+}
+
+async function render(on: GPUDevice, scene: Scene, lightPaths = 0) {
+  const tracer = await PathTracer.create(on, scene, {
     width: 16,
     height: 12,
     camera,
@@ -74,27 +84,23 @@ const passes = () => Object.getPrototypeOf(device.createCommandEncoder().beginCo
 
 it('the image is the same bit for bit whether the GPU counts the paths that are left or threads without one end', async () => {
   const indirect = vi.spyOn(passes(), 'dispatchWorkgroupsIndirect');
-  const counted = await render(software, 0.2);
+  const counted = await render(software, milk(0.2));
   expect(indirect).toHaveBeenCalled();
   indirect.mockClear();
-  const launched = await render(device, 0.2);
+  const launched = await render(device, milk(0.2));
   expect(indirect).not.toHaveBeenCalled();
   expectSame(launched, counted);
 });
 
 it.each([
-  { of: 'rough glass', roughness: 0.2, lightPaths: 0, kernels: ['connect', 'intersect', 'shade'] },
-  { of: 'smooth glass around a medium', roughness: 0, lightPaths: 0, kernels: ['connect', 'intersect', 'shade'] },
-  {
-    of: 'light paths',
-    roughness: 0,
-    lightPaths: 0.5,
-    kernels: ['connect', 'intersect', 'light_trace', 'shade'],
-  },
+  { of: 'rough glass', scene: () => milk(0.2), more: [] },
+  { of: 'smooth glass around a medium', scene: () => milk(0), more: [] },
+  { of: 'catchers and cut-outs', scene: caught, more: [] },
+  { of: 'light paths', scene: () => milk(0), lightPaths: 0.5, more: ['light_trace'] },
 ])(
   'the image is the same bit for bit where one workgroup takes all paths: $of',
-  async ({ roughness, lightPaths, kernels }) => {
-    const many = await render(device, roughness, lightPaths);
+  async ({ scene, lightPaths, more }) => {
+    const many = await render(device, scene(), lightPaths);
     const prototype = passes();
     const { setPipeline, dispatchWorkgroups } = prototype;
     const labels = new WeakMap<GPUComputePassEncoder, string>();
@@ -108,7 +114,7 @@ it.each([
       if (name && x > 1) narrowed.add(name);
       return dispatchWorkgroups.call(this, name ? 1 : x, y, z);
     });
-    expectSame(await render(device, roughness, lightPaths), many);
-    expect([...narrowed].sort()).toEqual(kernels);
+    expectSame(await render(device, scene(), lightPaths), many);
+    expect([...narrowed].sort()).toEqual(['connect', 'intersect', ...more, 'shade']);
   },
 );

@@ -92,7 +92,9 @@ it('the text of each kernel declares what is bound, and binds a resource under o
     for (const on of [false, true]) {
       const scene = features(Object.fromEntries([...all].map((name) => [name, on])));
       const declared = [
-        ...kernelSource(kernel, scene).key.matchAll(/@group\((\d)\) *@binding\((\d+)\) *var(?:<(\w+)[^>]*>)? *(\w+)/g),
+        ...kernelSource(kernel, scene, {}, on).key.matchAll(
+          /@group\((\d)\) *@binding\((\d+)\) *var(?:<(\w+)[^>]*>)? *(\w+)/g,
+        ),
       ];
       const bound = bindingsOf(kernel, scene);
       expect(declared.filter(([, , , space]) => space === 'storage')).toHaveLength(

@@ -95,7 +95,7 @@ describe('Scheduler', () => {
     const sizes: number[] = [];
     for (let turn = 0; turn < 24; turn++) {
       const { pixelOffset, pixelCount, sampleCount } = scheduler.next(1000)!;
-      const expensive = Math.max(0, (1 << 14) - pixelOffset) * sampleCount;
+      const expensive = Math.max(0, Math.min(pixelCount, (1 << 14) - pixelOffset)) * sampleCount;
       const paths = pixelCount * sampleCount;
       sizes.push(paths);
       scheduler.measured(
