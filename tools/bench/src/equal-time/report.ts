@@ -182,7 +182,7 @@ export function equalTimeMarkdown({ machine, gpu, quick, details }: EqualTimeRep
           '## References of the product scenes',
           '',
           ...table(
-            ['scene', 'samples', 'check with independent random numbers : reference', 'blocks outside 3 σ'],
+            ['scene', 'samples', 'another estimator : reference', 'blocks outside 3 σ'],
             details.crossChecks.map((c) => [
               `\`${c.scene}\``,
               String(c.samples),
@@ -222,7 +222,7 @@ The error of an image after a given GPU time, for Glanz and for [three-gpu-patht
 `;
 
 /** The explanation of the plots; it follows them, so that the answer comes first. */
-const PAGE_NOTES = `- **References.** Small scenes whose reference images were made by another renderer, with standard errors; images are rendered at a larger size and averaged down to the reference's 128 × 128 pixels. For two product scenes the reference is a long render of Glanz in two independent halves, checked with other random numbers, and in newer reports by another estimator (path guiding, light paths, light candidates).
+const PAGE_NOTES = `- **References.** Small scenes whose reference images were made by another renderer, with standard errors; images are rendered at a larger size and averaged down to the reference's 128 × 128 pixels. For two product scenes the reference is a long render of Glanz in two independent halves, checked by another estimator with random numbers of its own (path guiding, light paths, light candidates). The table of these references states the ratio of the brightness with its 95 % interval, and how many blocks differ by more than three standard errors: on curved rough metal, light paths [leave the flat triangles](/guide/lighting#light-paths).
 - **relMSE.** Mean over pixels of the squared error over the reference's squared brightness (plus 1 % of the image's mean). The reference's own noise is subtracted on average. *Noise alone* compares independent runs of the same renderer, so that differences between the material models do not count.
 - **FLIP.** The perceived difference when a viewer flips between the image and the reference (Andersson et al. 2020), on tone-mapped images.
 - **GPU time.** By timestamp queries around every submission. The cost of the queries is subtracted, which favours a renderer that submits often. three-gpu-pathtracer runs with its fastest batch size, the paths of all pixels in flight, and without its preview.
