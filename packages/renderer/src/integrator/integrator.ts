@@ -239,14 +239,14 @@ export class Integrator {
       const run = (name: KernelName, work: number | { readonly indirect: number }) =>
         this.#run(pass, kernels[name] as Kernel, work);
       run('begin', 1);
-      run('generate', Math.ceil(paths / 64));
       const all = Math.ceil(paths / 64);
+      run('generate', all);
       const steps = this.#steps(features.flags);
       for (let step = 1; step <= steps; step++) {
         const groups = step === 1 ? all : Math.min(all, LATER_GROUPS);
         const sized = (indirect: number) => (this.#indirect ? { indirect } : groups);
         run('intersect', sized(0));
-        if (step === 1 && frame > 0 && !aovs.only) run('reservoirs', Math.ceil(paths / 64));
+        if (step === 1 && frame > 0 && !aovs.only) run('reservoirs', all);
         run('shade', sized(0));
         if (step === steps) break;
         run('advance', 1);

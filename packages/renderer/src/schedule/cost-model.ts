@@ -1,6 +1,6 @@
 /** What is left of a high cost, with each measurement, in {@link CostModel.peak}: half after ten. */
 const MEMORY = 0.93;
-/** The same, with each measurement of a whole. */
+/** The same, with each measurement that covers all parts of the work. */
 const MEMORY_OF_PARTS = 0.5;
 /** Share of the latest measurement in {@link CostModel.mean}. */
 const WEIGHT = 0.3;
@@ -43,7 +43,7 @@ export class CostModel {
 
   /**
    * Learns from a piece of `size` units, above 0, that took `milliseconds`.
-   * @param whole Whether it has parts of everything, so that units of others do not cost more for long.
+   * @param whole Whether it covers all parts of the work: the peak of single parts is then forgotten sooner.
    */
   measured(size: number, milliseconds: number, whole = false): void {
     const last = this.#last;

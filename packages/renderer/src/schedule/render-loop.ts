@@ -75,10 +75,10 @@ export async function* renderLoop(loop: RenderLoop): AsyncGenerator<number, void
     lastDone = performance.now();
     check();
     await oldest.verified;
-    // The report of the batch before may have come late, which would make this one look short and the next one far too long:
-    // of batches that follow each other, the time of two counts.
     const paths = oldest.batch.pixelCount * oldest.batch.sampleCount;
-    // Not that of the first one, which includes one-time costs, unless both reports came together.
+    // The report of the batch before may have come late, which would make this one look short and the next one far too
+    // long: of batches that follow each other, the time of two counts. But the first one includes one-time costs, and
+    // counts by itself unless both reports came together.
     const shared =
       waited && before && (!before.first || milliseconds < TOGETHER)
         ? ((before.milliseconds + milliseconds) * paths) / (before.paths + paths)

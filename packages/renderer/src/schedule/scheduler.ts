@@ -37,6 +37,7 @@ export class Scheduler {
   readonly #cost = new CostModel();
   /** Whether nothing was learned from others before. */
   readonly #fresh: boolean;
+  /** Whether a batch was measured. */
   #begun = false;
   #sample: number;
   #pixel = 0;
