@@ -211,7 +211,7 @@ test('the first script is small, and controls come after the first model', async
     return [...scripts].reduce((sum, path) => sum + gzipSync(readFileSync(dist + path.slice(1))).length, 0);
   };
   expect(fetched(asked.slice(0, at(/\/panels-[^/]+\.js$/)))).toBeLessThan(191_000);
-  expect(fetched(asked.slice(0, at(denoiser)))).toBeLessThan(211_800);
+  expect(fetched(asked.slice(0, at(denoiser)))).toBeLessThan(211_600);
   // After that the denoiser, and one archive of weights; with those comes what computes the layers, WebAssembly here.
   const layers = /\/wasm-chain-[^/]+\.js$/;
   await expect.poll(() => at(layers)).toBeGreaterThan(at(denoiser));

@@ -50,8 +50,7 @@ export class CostModel {
     if (last && Math.max(size, last.size) > SPREAD * Math.min(size, last.size)) {
       const slope = Math.max(0, (milliseconds - last.milliseconds) / (size - last.size));
       const shortest = Math.min(milliseconds - slope * size, last.milliseconds - slope * last.size);
-      const max = MAX_FIXED * Math.min(milliseconds, last.milliseconds);
-      const fixed = Math.min(Math.max(0, shortest), max);
+      const fixed = Math.max(0, Math.min(shortest, MAX_FIXED * milliseconds, MAX_FIXED * last.milliseconds));
       this.#fixed = 0.5 * ((this.#fixed ?? fixed) + fixed);
     }
     if (size !== last?.size) this.#last = { size, milliseconds };

@@ -37,8 +37,8 @@ export class Scheduler {
   readonly #cost = new CostModel();
   /** Whether nothing was learned from others before. */
   readonly #fresh: boolean;
-  /** Whether a batch was measured. */
-  #begun = false;
+  /** Whether batches are learned from: not the first of all, which has one-time costs of kernels and memory. */
+  #begun: boolean;
   #sample: number;
   #pixel = 0;
 
@@ -54,6 +54,7 @@ export class Scheduler {
     this.#capacity = options.capacity;
     this.budget = options.budgetMs;
     this.#fresh = paths === undefined;
+    this.#begun = !this.#fresh;
     this.#paths = Math.min(paths ?? SMALLEST * 4, options.capacity);
   }
 
@@ -113,8 +114,7 @@ export class Scheduler {
   measured(batch: Batch, milliseconds: number): void {
     const paths = batch.pixelCount * batch.sampleCount;
     const cost = this.#cost;
-    // The first batch includes one-time costs: first use of kernels and memory.
-    if (this.#begun || !this.#fresh) cost.measured(paths, milliseconds, batch.pixelCount === this.pixels);
+    if (this.#begun) cost.measured(paths, milliseconds, batch.pixelCount === this.pixels);
     this.#begun = true;
     // What every batch costs, however small, must not take most of the time: long paths through glass leave the GPU
     // nearly idle at their end, and samples that are traced together share that.
@@ -130,8 +130,8 @@ export class Scheduler {
       const possible = Math.max(affordable, this.#fresh && !cost.isFixedKnown ? 2 * paths : 0);
       // A band of sky is cheap, and the next one may cost what an earlier one did.
       const safe = cost.peak > 0 ? Math.max(0, 1.4 * budget - cost.fixed) / cost.peak : Infinity;
-      if (Math.min(possible, safe) > this.#paths)
-        this.#paths = Math.min(this.#capacity, Math.floor(Math.min(possible, safe)), 4 * this.#paths);
+      const allowed = Math.floor(Math.min(possible, safe, 4 * this.#paths));
+      this.#paths = Math.min(this.#capacity, Math.max(this.#paths, allowed));
     } else if (!cost.isFixedKnown) {
       // One larger batch tells how much of the time was not for its paths. Larger than this one: a preview of few pixels
       // has smaller batches than are allowed, however many there are.
