@@ -109,7 +109,7 @@ ${furnace}
 
 ${materials ? `${materials.materials} random white materials with all lobes, without anisotropy and rough diffuse, at 3 angles each: ${number(materials.min)} to ${number(materials.max)}.` : ''}
 
-Anisotropic highlights: the energy that metal loses by single scattering is tabulated over roughness, anisotropy and both angles, and is added as a reciprocal lobe. For dielectrics it is a sum over visible microfacets: from outside over 16 that reflect into the upper hemisphere, in proportion to the tabulated reflection of a mirror, and over 26 of all, with places and weights fitted to larger sums; from inside over 160, within the critical angle and among those that reflect into the upper hemisphere. For an index of refraction below 1 over an opaque base, and near 1 from inside, the sums have 96 terms: for the viewing direction, for the light direction, and for the mean over all directions at 16 of them.
+Anisotropic highlights: the energy that metal loses by single scattering is tabulated over roughness, anisotropy and both angles, and is added as a reciprocal lobe. For dielectrics it is a sum over visible microfacets: from outside over 16 that reflect into the upper hemisphere, in proportion to the tabulated reflection of a mirror, and over 26 of all, with places and weights fitted to larger sums, or over 6 and 7 where the anisotropy is at most 0.31; from inside over 160, within the critical angle and among those that reflect into the upper hemisphere. For an index of refraction below 1 over an opaque base, and near 1 from inside, the sums have 96 terms: for the viewing direction, for the light direction, and for the mean over all directions at 16 of them.
 
 ## Samples against their density
 

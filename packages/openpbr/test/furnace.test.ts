@@ -105,6 +105,12 @@ const ROWS: readonly Row[] = [
   row('anisotropic metal, anisotropy 0.5', { ...METAL, specular_roughness_anisotropy: 0.5 }, [0.997, 1.003], METALS),
   row('anisotropic metal, anisotropy 0.9', { ...METAL, specular_roughness_anisotropy: 0.9 }, [0.997, 1.003], METALS),
   row(
+    'anisotropic dielectric over diffuse, anisotropy 0.3',
+    { specular_roughness_anisotropy: 0.3 },
+    [0.997, 1.003],
+    DIELECTRICS,
+  ),
+  row(
     'anisotropic dielectric over diffuse, anisotropy 0.5',
     { specular_roughness_anisotropy: 0.5 },
     [0.997, 1.003],
@@ -113,6 +119,12 @@ const ROWS: readonly Row[] = [
   row(
     'anisotropic dielectric over diffuse, anisotropy 0.9',
     { specular_roughness_anisotropy: 0.9 },
+    [0.997, 1.003],
+    DIELECTRICS,
+  ),
+  row(
+    'anisotropic glass, anisotropy 0.3',
+    { ...GLASS, specular_roughness_anisotropy: 0.3 },
     [0.997, 1.003],
     DIELECTRICS,
   ),

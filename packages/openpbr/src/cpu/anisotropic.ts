@@ -1,5 +1,10 @@
 import type { OpenPbrVector } from '../parameters/index';
-import { OPENPBR_ANISOTROPIC_FACETS, OPENPBR_ANISOTROPIC_MIRRORS } from '../tables/anisotropic_facets.wesl';
+import {
+  OPENPBR_ANISOTROPIC_ENDS,
+  OPENPBR_ANISOTROPIC_FACETS,
+  OPENPBR_ANISOTROPIC_MILD,
+  OPENPBR_ANISOTROPIC_MIRRORS,
+} from '../tables/anisotropic_facets.wesl';
 import { seenFacets } from './conic';
 import { conductorLoss } from './energy';
 import { fresnelDielectric } from './fresnel';
@@ -16,6 +21,15 @@ import { clamp, dot, length2, normalize } from './vector';
 export const anisotropicEnergy = (eta: number, alpha: Slopes, wo: OpenPbrVector): Kept =>
   eta < 1 ? insideEnergy(eta, alpha, wo) : fromOutside(eta, alpha, wo);
 
+type Facet = readonly [place: number, across: number, weight: number];
+
+/** The facets for such slopes, of the table whose ends start at `at`. */
+function facetsFor(alpha: Slopes, facets: readonly Facet[], at: 0 | 2): readonly Facet[] {
+  const any = OPENPBR_ANISOTROPIC_ENDS[at];
+  if (alpha[1] < Math.fround(OPENPBR_ANISOTROPIC_MILD) * alpha[0]) return facets.slice(0, any);
+  return facets.slice(any, OPENPBR_ANISOTROPIC_ENDS[at + 1]);
+}
+
 /** Reflection is the mean over facets that reflect upwards, since it has an edge, times what mirrors reflect. */
 function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const wo: OpenPbrVector = [given[0], given[1], Math.max(given[2], 1e-5)];
@@ -23,7 +37,8 @@ function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
   const reflectance = (h: OpenPbrVector): number => fresnelDielectric(eta, clamp(dot(wo, h), 0, 1));
   let reflected = 0;
   let mirrored = 1e-20;
-  sumOver(OPENPBR_ANISOTROPIC_MIRRORS, upwards, upwards, (weight, h) => {
+  const mirrors = facetsFor(alpha, OPENPBR_ANISOTROPIC_MIRRORS, 0);
+  sumOver(mirrors, upwards, upwards, (weight, h) => {
     const mirror = weight * Math.max(facetSeen(eta, alpha, wo, h)[0], 0);
     reflected += mirror * reflectance(h);
     mirrored += mirror;
@@ -34,7 +49,7 @@ function fromOutside(eta: number, alpha: Slopes, given: OpenPbrVector): Kept {
 
 /**
  * The mean over all visible facets: cos χ (sin ψ p̂ + cos ψ ẑ) + sin χ q̂ where they are stretched to a round highlight, p̂
- * towards the view. By sin (ψ - ψ of the view) and sin χ; the weights add up to 1.
+ * towards the view. By sin (ψ - ψ of the view) and tan χ; the weights add up to 1.
  */
 function transmitted(eta: number, alpha: Slopes, wo: OpenPbrVector, reflectance: (h: OpenPbrVector) => number): number {
   const flat = [alpha[0] * wo[0], alpha[1] * wo[1]] as const;
@@ -42,9 +57,10 @@ function transmitted(eta: number, alpha: Slopes, wo: OpenPbrVector, reflectance:
   const azimuth = length2(...flat) > 1e-10 ? Math.atan2(flat[1], flat[0]) : 0;
   const [cos, sin] = [Math.cos(azimuth), Math.sin(azimuth)];
   let through = 0;
-  for (const [place, across, , weight] of OPENPBR_ANISOTROPIC_FACETS) {
+  const facets = facetsFor(alpha, OPENPBR_ANISOTROPIC_FACETS, 2);
+  for (const [place, across, weight] of facets) {
     const psi = tilt + Math.asin(clamp((1 + Math.cos(tilt)) * place - 1, -1, 1));
-    const chi = Math.asin(across);
+    const chi = Math.atan(across);
     const along = Math.cos(chi) * Math.sin(psi);
     const h = normalize([
       alpha[0] * (along * cos - Math.sin(chi) * sin),

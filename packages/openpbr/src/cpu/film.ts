@@ -4,6 +4,7 @@ import { dielectricEpsilon, fresnelDielectric } from './fresnel';
 import { ggxSample, ggxMasking, ggxMaskingShadowing, ggxRoughness, type Slopes } from './ggx';
 import { clamp, dot, length2, rgb } from './vector';
 import { FILM_BANDS, type FilmBands } from '../tables/film';
+import { OPENPBR_FILM_FACETS, OPENPBR_FILM_FACET_ENDS } from '../tables/film_facets.wesl';
 
 const mix = (a: number, b: number, t: number): number => a * (1 - t) + b * t;
 
@@ -165,25 +166,6 @@ export function filmReflectance(
 export const filmFacet = (film: Film, c: number): OpenPbrColor =>
   filmReflectance(film, [film.base, 0], (1 - c * c) * film.viewer);
 
-/** Facets that a film's changes are summed over: so many rings of the cap of visible normals, and facets of each. */
-export type FilmFacets = readonly [rings: 2 | 3, around: 3 | 4];
-
-/** More from inside, where total reflection has an edge. */
-export const filmFacets = (inside: boolean): FilmFacets => (inside ? [3, 4] : [2, 3]);
-
-/** Where along the cap the rings are, and how much they count: Gauss and Legendre's. */
-const RINGS = {
-  2: [
-    [0.21132487, 1 / 2],
-    [0.78867513, 1 / 2],
-  ],
-  3: [
-    [0.11270167, 5 / 18],
-    [0.5, 8 / 18],
-    [0.88729833, 5 / 18],
-  ],
-} as const;
-
 /** What the film changes of the albedos of an interface; twin of the WGSL struct `OpenPbrFilmChange`. */
 export interface FilmChange {
   /** What it adds to the part of the light that single scattering reflects. */
@@ -195,13 +177,12 @@ export interface FilmChange {
 }
 
 /**
- * Sums over facets as they are seen, around the cap at places whose cosines are Chebyshev's; twin of
- * `openpbr_film_sums` with `openpbr_film_change`. What is reflected is a mean over what mirrors reflect upwards, which
- * is tabulated.
+ * Sums over facets as they are seen; twin of `openpbr_film_sums` with `openpbr_film_change`. What is reflected is a mean
+ * over what mirrors reflect upwards, which is tabulated.
  *
  * @param eta Relative index of the interface without the film.
  * @param albedo Its directional albedo.
- * @param facets From {@link filmFacets}.
+ * @param inside Whether the viewer is inside, where total reflection has an edge and takes more facets.
  */
 export function filmChange(
   film: Film,
@@ -209,7 +190,7 @@ export function filmChange(
   albedo: number,
   alpha: Slopes,
   wo: OpenPbrVector,
-  [rings, around]: FilmFacets,
+  inside: boolean,
 ): FilmChange {
   if (film.weight <= 0) return { more: [0, 0, 0], direct: [1, 1, 1], pass: [1, 1, 1], difference: [0, 0, 0] };
   const turn = Math.atan2(alpha[1] * wo[1], alpha[0] * wo[0]) / (2 * Math.PI);
@@ -217,22 +198,20 @@ export function filmChange(
   const through = [0, 0, 0];
   let plain = 0;
   let mirrored = 0;
-  for (const [height, ring] of RINGS[rings]) {
-    const part = ring / around;
-    for (let i = 0; i < around; i++) {
-      const h = ggxSample(alpha, wo, [turn + (i + 0.25) / around, height]);
-      const c = clamp(dot(wo, h), 0, 1);
-      const wi: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
-      const seen = wi[2] > 0 ? (part * ggxMaskingShadowing(alpha, wo, wi)) / ggxMasking(alpha, wo) : 0;
-      const clear = fresnelDielectric(eta, c);
-      const color = filmFacet(film, c);
-      plain += part * (1 - clear);
-      mirrored += seen;
-      for (const k of [0, 1, 2] as const) {
-        const change = film.weight * (color[k] - clear);
-        reflected[k] = (reflected[k] as number) + seen * change;
-        through[k] = (through[k] as number) + part * change;
-      }
+  const [outer, all] = OPENPBR_FILM_FACET_ENDS;
+  for (const [up, cosine, sine, part] of OPENPBR_FILM_FACETS.slice(...(inside ? [outer, all] : [0, outer]))) {
+    const h = ggxSample(alpha, wo, [turn + Math.atan2(sine, cosine) / (2 * Math.PI), 1 - up]);
+    const c = clamp(dot(wo, h), 0, 1);
+    const wi: OpenPbrVector = [2 * c * h[0] - wo[0], 2 * c * h[1] - wo[1], 2 * c * h[2] - wo[2]];
+    const seen = wi[2] > 0 ? (part * ggxMaskingShadowing(alpha, wo, wi)) / ggxMasking(alpha, wo) : 0;
+    const clear = fresnelDielectric(eta, c);
+    const color = filmFacet(film, c);
+    plain += part * (1 - clear);
+    mirrored += seen;
+    for (const k of [0, 1, 2] as const) {
+      const change = film.weight * (color[k] - clear);
+      reflected[k] = (reflected[k] as number) + seen * change;
+      through[k] = (through[k] as number) + part * change;
     }
   }
   const kept = (1 - conductorLoss(alpha, ggxRoughness(alpha), wo, Math.max(wo[2], 1e-5))) / Math.max(mirrored, 1e-20);

@@ -50,7 +50,7 @@ export function ggx(
   return [(d * wi[2]) / (wo[2] * si + wi[2] * so), d / (bound * wo[2] + so)];
 }
 
-/** The specular_roughness whose highlight is stretched to `alpha`; twin of `openpbr_ggx_roughness`. */
+/** The specular_roughness whose highlight is stretched to `alpha`. */
 export const ggxRoughness = (alpha: Slopes): number => Math.sqrt(length2(alpha[0], alpha[1]) / Math.SQRT2);
 
 /** Round roughness that reflects as large a share of the light towards `w`; twin of `openpbr_view_roughness`. */

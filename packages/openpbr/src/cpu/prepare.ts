@@ -4,7 +4,7 @@ import { interfaceEnergy, isOverOpaque, isSummed } from './dielectric';
 import { diffuseEven, diffuseGain, diffuseGrazing } from './diffuse';
 import { energyAlbedoMean, conductorLoss, conductorLossMean, anisotropicAlbedoMean } from './energy';
 import { dielectricEpsilon, fresnelMetal, fresnelMetalMean } from './fresnel';
-import { filmReflectance, filmChange, filmFacets, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
+import { filmReflectance, filmChange, metalIndex, prepareFilm, type ComplexIndex, type Film } from './film';
 import { prepareFuzz, type Fuzz } from './fuzz';
 import { ggxAlpha, ggxBound, isSmooth, type Slopes } from './ggx';
 import { mix, mixInterfaces, mixThin, prepareHaze, type Haze } from './haze';
@@ -174,10 +174,9 @@ export function prepareBsdf(
   const outer = { ...p, specular_color: tint, specular_ior: inside ? 1 / whole.specular_ior : whole.specular_ior };
   // From inside nothing opaque lies beyond it.
   const uncoated = interfaceOf(inside ? { ...outer, transmission_weight: 1 } : outer);
-  const facets = filmFacets(inside);
-  const filmed = filmChange(film, (1 + face.epsilon) / (1 - face.epsilon), face.albedo, alpha, wo, facets);
+  const filmed = filmChange(film, (1 + face.epsilon) / (1 - face.epsilon), face.albedo, alpha, wo, inside);
   const clear = inside
-    ? filmChange(film, (1 + uncoated.epsilon) / (1 - uncoated.epsilon), uncoated.albedo, alpha, wo, facets)
+    ? filmChange(film, (1 + uncoated.epsilon) / (1 - uncoated.epsilon), uncoated.albedo, alpha, wo, inside)
     : filmed;
   const through = prepareTransmission(
     outer,
