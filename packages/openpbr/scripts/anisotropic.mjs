@@ -8,21 +8,11 @@
  * has facets of its own, since a third of them has the same error there.
  */
 import { writeFileSync } from 'node:fs';
+import { random } from './random.mjs';
 
 /** The ratio of slopes from which anisotropy is mild: below 0.31 of specular_roughness_anisotropy. */
 const MILD = 0.69;
 const STEPS = 16_000;
-
-/** Uniform in [0, 1): Mulberry32. */
-function random(seed) {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let t = Math.imul(state ^ (state >>> 15), state | 1);
-    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
-    return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
-  };
-}
 
 /** An interface and a view, many nearly across the long slopes, where energies change fast; mild ones only, or any. */
 function draw(next, mild) {

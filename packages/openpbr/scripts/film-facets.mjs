@@ -7,20 +7,10 @@
  */
 import { readFileSync, writeFileSync } from 'node:fs';
 import { gaussLegendre } from './microfacet.mjs';
+import { random } from './random.mjs';
 
 const FILMS = 6000;
 const STEPS = 5000;
-
-/** Uniform in [0, 1): Mulberry32. */
-function random(seed) {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) >>> 0;
-    let t = Math.imul(state ^ (state >>> 15), state | 1);
-    t ^= t + Math.imul(t ^ (t >>> 7), t | 61);
-    return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
-  };
-}
 
 /** The bands of the spectrum that the shader has. */
 const text = readFileSync(new URL('../src/tables/film_bands.wesl', import.meta.url), 'utf8');
