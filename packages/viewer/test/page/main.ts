@@ -30,6 +30,16 @@ Object.assign(window, {
     FilmDenoiser.create(device, { color: await (await fetch(smallUrl())).arrayBuffer() }, options),
 });
 
+/** What a video shows. Chromium's `seeked` may come before there is a frame to read: undefined until there is. */
+function currentFrame(video: HTMLVideoElement): VideoFrame | undefined {
+  try {
+    return new VideoFrame(video);
+  } catch (error) {
+    if (video.error || !(error instanceof DOMException) || error.name !== 'InvalidStateError') throw error;
+    return undefined;
+  }
+}
+
 /** Frames of a film as the browser plays it, at the middles of their times. */
 async function played(film: Blob, frames: number, fps: number) {
   const video = document.createElement('video');
@@ -51,12 +61,12 @@ async function played(film: Blob, frames: number, fps: number) {
     const sought = once('seeked');
     video.currentTime = (frame + 0.5) / fps;
     await sought;
-    // A busy browser may still show the frame before.
+    // A busy browser may still show the frame before, or none yet.
     for (;;) {
-      const shown = new VideoFrame(video);
-      const isShown = Math.floor((shown.timestamp / 1e6) * fps + 0.25) === frame;
+      const shown = currentFrame(video);
+      const isShown = shown && Math.floor((shown.timestamp / 1e6) * fps + 0.25) === frame;
       if (isShown) context.drawImage(shown, 0, 0);
-      shown.close();
+      shown?.close();
       if (isShown) break;
       await new Promise((resolve) => setTimeout(resolve, 10));
     }
