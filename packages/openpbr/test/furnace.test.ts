@@ -204,21 +204,24 @@ describe('white furnace, lobe by lobe', () => {
   for (const specular_ior of FULL ? [0.3, 0.6, 0.8, 0.9, 0.99, 0.999] : [0.3, 0.8, 0.999]) {
     const name = `index ${specular_ior} over diffuse`;
     it(`${name}: 0.997 to 1.002`, () => {
-      const seen = { min: Infinity, max: -Infinity };
-      for (const [i, specular_roughness] of ROUGHNESSES.entries()) {
+      // Seen along the normal, the critical angle is an edge right through the nodes.
+      const cosines = [0.97, ...COSINES.slice(1)];
+      const sums = ROUGHNESSES.flatMap((specular_roughness, i) => {
         const p = resolveParameters({ base_color: WHITE, specular_roughness, specular_ior });
-        // Seen along the normal, the critical angle is an edge right through the nodes.
-        for (const [j, mu] of [0.97, ...COSINES.slice(1)].entries()) {
-          if (!inSample(2, i, j)) continue;
-          const sum = furnaceBelowOne(p, direction(mu), SIZE);
-          const at = `roughness ${specular_roughness}, cosine ${mu}`;
-          expect(sum, at).toBeGreaterThan(0.997 - QUADRATURE);
-          expect(sum, at).toBeLessThan(1.002 + QUADRATURE);
-          seen.min = Math.min(seen.min, sum);
-          seen.max = Math.max(seen.max, sum);
-        }
+        return cosines
+          .filter((_, j) => inSample(2, i, j))
+          .map((mu) => ({
+            sum: furnaceBelowOne(p, direction(mu), SIZE),
+            at: `roughness ${specular_roughness}, cosine ${mu}`,
+          }));
+      });
+      // Kept even where a bound does not hold, so that the published table cannot stay at what was better.
+      const values = sums.map(({ sum }) => sum);
+      record(name, { min: Math.min(...values), max: Math.max(...values), roughnesses: ROUGHNESSES, cosines });
+      for (const { sum, at } of sums) {
+        expect(sum, at).toBeGreaterThan(0.997 - QUADRATURE);
+        expect(sum, at).toBeLessThan(1.002 + QUADRATURE);
       }
-      record(name, { ...seen, roughnesses: ROUGHNESSES, cosines: [0.97, ...COSINES.slice(1)] });
     });
   }
 });
