@@ -7,7 +7,7 @@ import { CliError } from '../src/errors';
 import { chooseGpus, numbered } from '../src/gpus/choose-gpus';
 import { checkHiding, hiding } from '../src/gpus/hidden-files';
 import { nvidiaNodes } from '../src/gpus/nvidia-nodes';
-import { fakeBackend, FAKE_GPUS, fakeDevice, run, temporaryFolder, type FakeOptions } from './fakes';
+import { fakeBackend, FAKE_GPUS, fakeDevice, run, temporaryFolder, triangleScene, type FakeOptions } from './fakes';
 import { makeGlb } from './glb';
 
 const H100 = 'NVIDIA H100 80GB HBM3';
@@ -161,6 +161,28 @@ describe('commands on several GPUs', () => {
       },
     };
     const failed = await run([...task, '--store', 'other'], cwd, broken);
+    expect([failed.code, failed.out]).toEqual([4, expect.stringContaining('No room.')]);
+  });
+
+  it('glanz farm task: a GPU that opens when another has failed ends without an error of its own', async () => {
+    const { fake } = machineOf('A', 'B');
+    const cwd = temporaryFolder({ 'm.glb': makeGlb() });
+    writeFileSync(join(cwd, 'b.json'), JSON.stringify([{ model: 'm.glb', turntable: 6, output: '{view}.png' }]));
+    let signal: AbortSignal | undefined;
+    const failed = await run(['farm', 'task', 'b.json', '--json', ...options], cwd, {
+      ...fake,
+      async loadModel(_, stop) {
+        signal = stop;
+        return triangleScene();
+      },
+      async openGpu(name) {
+        while (name === 'A' && !signal?.aborted) await new Promise((resolve) => setTimeout(resolve, 5));
+        return { device: fakeDevice(), adapterName: name ?? '', software: false };
+      },
+      onRead() {
+        throw new CliError('cli/output', 'No room.');
+      },
+    });
     expect([failed.code, failed.out]).toEqual([4, expect.stringContaining('No room.')]);
   });
 });

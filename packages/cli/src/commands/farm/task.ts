@@ -81,16 +81,19 @@ export async function taskCommand(
   };
   try {
     for (const gpu of await chooseGpus(gpus, backend)) renderers.push(await gpuRenderer(gpu, io, backend));
-    const ends = await Promise.allSettled(
+    const failures: unknown[] = [];
+    await Promise.all(
       renderers.map((renderer) =>
         work(renderer).catch((error: unknown) => {
+          // Some stages answer an abort by throwing: what ended the others, or the interrupt, is reported then.
+          if (stop.signal.aborted && (error as Error | undefined)?.name === 'AbortError') return;
+          failures.push(error);
           // The others keep their samples.
           stop.abort();
-          throw error;
         }),
       ),
     );
-    for (const end of ends) if (end.status === 'rejected') throw end.reason;
+    if (failures.length > 0) throw failures[0];
   } finally {
     for (const renderer of renderers) renderer.close();
     stopListening();
